@@ -5,7 +5,7 @@ looser tolerance than the result, where its effect on the compared differences i
 also have fewer increments, where the effect of the increments is known from a separate comparison.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import log
 from typing import Any, TypeAlias
@@ -45,6 +45,8 @@ from contact_scene.stepping.increment_error import has_increment_error
 # stick radius in the gallery's scene spence is 2.7 times that with 8.
 MANY = 32
 FEW = 8
+# Coarsening factor of a load step if every second point of an indenter is left out.
+TWICE = (2.0,)
 # Largest number of refinements until the cells resolve the contact, and their factor.
 MAX_DOUBLINGS = 5
 DOUBLING = 2.0
@@ -80,116 +82,171 @@ def compare_with_coarse_solves(
     result         result whose errors are estimated
     by_references  false to run the coarse solves for scalars with an independent reference, too
     """
-    values, matters, features = (
-        values_of(result),
-        has_increment_error(result.scene),
-        solver.features(result),
-    )
+    values, matters = values_of(result), has_increment_error(result.scene)
+    features = solver.features(result)
     run = solver.fineness_of(result)
     most = max(step.contact for step in features)
     run = replace(run, tolerance=max(run.tolerance, coarse_tolerance(most / 2)))
-    known: dict[tuple[bool, Fineness], Solved | None] = {}
-    made: list[CoarseSolveRecord] = []
-
-    def solved(differs: str, coarse: Fineness, by: DiscretisedSolver = solver) -> Solved | None:
-        """Solve the scene with a coarse discretisation; return the result and its scalars.
-
-        None is returned if the solver raised an error. Each discretisation is solved once and
-        recorded. A repeated call returns the stored result.
-
-        differs  text that describes the coarse discretisation in its record
-        coarse   grid or mesh, increments and tolerance
-        by       solver of the scene, or of the scene with a coarser indenter
-        """
-        key = by is solver, coarse
-        if key not in known:
-            shown, increments = solver.record_entry(coarse.space), coarse.increments
-            record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
-            try:
-                found = by.solve(coarse)
-                known[key] = found, values_of(found)
-                made.append(record.model_copy(update=_solver_work(found)))
-            except SolverError as error:
-                known[key] = None
-                made.append(record.model_copy(update={"refused": str(error)}))
-        return known[key]
-
     references = _references(solver) if by_references else ()
-    half = solver.with_half_the_points()
     known_all = _all_known(result.scene, values, references)
     shares = () if known_all else solver.shares_of(run.space)
-    spaces = [solver.coarser(result, share, more) for _, share, more in shares]
-    required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
-    required["increments"] = matters
+    spaces = {text: solver.coarser(result, share, more) for text, share, more in shares}
+    half = solver.with_half_the_points()
+
+    solves = _CoarseSolves(solver)
+    every_step = [True] * len(values)
+    required: dict[Part, Sequence[bool]] = {solver.part: every_step, "increments": matters}
     comparisons: list[Comparison] = []
-    twice = (2.0,) * len(values)
     if half is not None:
-        required["map"] = [True] * len(values)
+        required["map"] = every_step
         if references and (fewer := _references(half)):
-            comparisons.append(Comparison("map", references[0], fewer[0], twice))
-    points = half
-
+            comparisons.append(Comparison("map", references[0], fewer[0], TWICE * len(values)))
     effects: list[Effect] = []
-    counts = coarse_increment_counts(run.increments, matters) if any(matters) else ()
-    for few in (solver.few(replace(run, space=space), result) for space in spaces if counts):
-        if first := solved(f"few {solver.cells}", few):
-            differs = f"few {solver.cells}, other increments"
-            others = [
-                (count, other[1])
-                for count in counts
-                if (other := solved(differs, replace(few, increments=count)))
-            ]
-            for count, other_values in others:
-                factors = ratios(few.increments, count, matters)
-                comparisons.append(Comparison("increments", first[1], other_values, factors))
-            if len(others) > 1:
-                comparisons.append(compare_with_limit(first[1], few.increments, others, matters))
-            fewest = fewest_increments(run.increments, matters)
-            if other := solved(differs, replace(few, increments=fewest)):
-                run, effects = replace(run, increments=fewest), [(first[1], other[1])]
-            break
-
-    changes: dict[str, Any] | None = None
-    meshes: dict[float, tuple[Sequence[Values], Sequence[Features]]] = {}
-    for (text, *_), space in zip(shares, spaces, strict=True):
-        found = solved(
-            text.format(solver.cells), replace(run, space=change_settings(space, **(changes or {})))
-        )
-        if not found:
-            continue
-        sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
-        of_cells = add_effects(found[1], effects), solver.features(found[0])
-        meshes[min(b / a for b, a in sides)] = of_cells
-        for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
-            required[coarse.part] = [True] * len(values)
-            further = {**(changes or {}), coarse.key: coarse.value}
-            if other := solved(
-                coarse.differs, replace(run, space=change_settings(space, **further))
-            ):
-                factors = (coarse.ratio,) * len(values)
-                comparisons.append(Comparison(coarse.part, found[1], other[1], factors))
-                effects.append((found[1], other[1]))
-                found, changes = other, further
-        if points is not None:
-            same = replace(run, space=change_settings(space, **(changes or {})))
-            if other := solved("every second point of the indenter", same, points):
-                comparisons.append(Comparison("map", found[1], other[1], twice))
-                points = None
-        changes = changes or {}
-    for ratio, (coarse_values, coarse_features) in meshes.items():
-        factors = (ratio,) * len(values)
-        comparisons.append(Comparison(solver.part, values, coarse_values, factors, coarse_features))
+    if any(matters):
+        few = (solver.few(replace(run, space=space), result) for space in spaces.values())
+        run, by_increments, effects = _compare_increments(solves, few, run, matters)
+        comparisons += by_increments
+    by_cells, mesh_parts = _compare_cells(solves, result, run, spaces, effects, half)
+    required |= dict.fromkeys(mesh_parts, every_step)
     return SolvedRun(
         scene=result.scene,
         values=values,
         tolerance=solver.residuals(result),
         features=features,
-        comparisons=comparisons,
+        comparisons=comparisons + by_cells,
         required=required,
         neglected=solver.neglected_errors(result),
         part=solver.part,
         references=references,
-    ), tuple(made)
+    ), tuple(solves.records)
+
+
+class _CoarseSolves:
+    """Coarse solves of a scene and their records. Each discretisation is solved once."""
+
+    def __init__(self, solver: DiscretisedSolver) -> None:
+        self.solver = solver
+        self.records: list[CoarseSolveRecord] = []
+        self._known: dict[tuple[bool, Fineness], Solved | None] = {}
+
+    def solve(
+        self, differs: str, coarse: Fineness, by: DiscretisedSolver | None = None
+    ) -> Solved | None:
+        """Solve the scene with a coarse discretisation; return the result and its scalars.
+
+        None is returned if the solver raised an error.
+
+        differs  text that describes the coarse discretisation in its record
+        coarse   grid or mesh, increments and tolerance
+        by       solver of the scene with a coarser indenter; None for the scene as it is
+        """
+        key = by is None, coarse
+        if key not in self._known:
+            shown, increments = self.solver.record_entry(coarse.space), coarse.increments
+            record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
+            try:
+                found = (by or self.solver).solve(coarse)
+                self._known[key] = found, values_of(found)
+                self.records.append(record.model_copy(update=_solver_work(found)))
+            except SolverError as error:
+                self._known[key] = None
+                self.records.append(record.model_copy(update={"refused": str(error)}))
+        return self._known[key]
+
+
+def _compare_increments(
+    solves: _CoarseSolves, few: Iterable[Fineness], run: Fineness, matters: Sequence[bool]
+) -> tuple[Fineness, list[Comparison], list[Effect]]:
+    """Compare solves with other numbers of increments, on the first coarse grid or mesh.
+
+    Grids and meshes that cannot be solved are passed over.
+
+    solves   coarse solves of the scene
+    few      coarse discretisations with the increments of the result
+    run      discretisation of the later coarse solves
+    matters  for each load step, true if it has an increment error
+    returns  discretisation of the later coarse solves, with fewer increments if their effect is
+             known; comparisons; effects of the fewer increments on the scalars
+    """
+    cells = solves.solver.cells
+    for coarse in few:
+        if first := solves.solve(f"few {cells}", coarse):
+            break
+    else:
+        return run, [], []
+    differs = f"few {cells}, other increments"
+    others = [
+        (count, other[1])
+        for count in coarse_increment_counts(run.increments, matters)
+        if (other := solves.solve(differs, replace(coarse, increments=count)))
+    ]
+    comparisons = [
+        Comparison("increments", first[1], values, ratios(coarse.increments, count, matters))
+        for count, values in others
+    ]
+    if len(others) > 1:
+        comparisons.append(compare_with_limit(first[1], coarse.increments, others, matters))
+    fewest = fewest_increments(run.increments, matters)
+    if not (other := solves.solve(differs, replace(coarse, increments=fewest))):
+        return run, comparisons, []
+    return replace(run, increments=fewest), comparisons, [(first[1], other[1])]
+
+
+def _compare_cells(
+    solves: _CoarseSolves,
+    result: Any,
+    run: Fineness,
+    spaces: Mapping[str, Any],
+    effects: Sequence[Effect],
+    half: DiscretisedSolver | None,
+) -> tuple[list[Comparison], list[Part]]:
+    """Compare the result with solves on coarser cells, elements or rings.
+
+    The other parameters of a mesh and the points of a measured indenter are compared on the first
+    of them. The later ones have the cheaper values of these parameters.
+
+    solves   coarse solves of the scene
+    result   result whose errors are estimated
+    run      discretisation of the result, with the increments and tolerance of coarse solves
+    spaces   coarse grids or meshes, by their descriptions
+    effects  effects of the fewer increments on the scalars
+    half     solver of the scene with half the points of the indenter, if points give its shape
+    returns  comparisons, and the parts of the error that the other parameters of the mesh cause
+    """
+    solver, values = solves.solver, values_of(result)
+    effects = list(effects)
+    comparisons: list[Comparison] = []
+    changes: dict[str, Any] | None = None
+    parts: list[Part] = []
+    meshes: dict[float, tuple[Sequence[Values], Sequence[Features]]] = {}
+    for text, space in spaces.items():
+        here = replace(run, space=change_settings(space, **(changes or {})))
+        found = solves.solve(text.format(solver.cells), here)
+        if not found:
+            continue
+        sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
+        of_cells = add_effects(found[1], effects), solver.features(found[0])
+        meshes[min(b / a for b, a in sides)] = of_cells
+        if changes is None:
+            changes = {}
+            for coarse in solver.mesh_coarse_solves(space, result):
+                parts.append(coarse.part)
+                further = {**changes, coarse.key: coarse.value}
+                changed = replace(run, space=change_settings(space, **further))
+                if other := solves.solve(coarse.differs, changed):
+                    factors = (coarse.ratio,) * len(values)
+                    comparisons.append(Comparison(coarse.part, found[1], other[1], factors))
+                    effects.append((found[1], other[1]))
+                    found, changes, here = other, further, changed
+        if half is not None and (
+            other := solves.solve("every second point of the indenter", here, half)
+        ):
+            comparisons.append(Comparison("map", found[1], other[1], TWICE * len(values)))
+            half = None
+    for ratio, (coarse_values, coarse_features) in meshes.items():
+        factors = (ratio,) * len(values)
+        comparisons.append(Comparison(solver.part, values, coarse_values, factors, coarse_features))
+    return comparisons, parts
 
 
 def stated_errors(result: Any) -> StatedErrors:

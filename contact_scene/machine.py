@@ -58,12 +58,11 @@ def one_thread() -> Iterator[None]:
 
 
 @lru_cache(maxsize=1)
-def _threaded_libraries(imported: int) -> ThreadpoolController:
+def _threaded_libraries(_imported: int) -> ThreadpoolController:
     """Find the loaded libraries whose threads can be limited (BLAS, OpenMP).
 
     The result is cached until another module is imported, because only an import loads libraries.
-
-    imported  number of imported modules, the key of the cache
+    The argument is the number of imported modules, the key of the cache.
     """
     return ThreadpoolController()
 

@@ -62,7 +62,7 @@ def alternate(
 
 
 def solve_gross_slip(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+    problem: CoupledProblem, pressure: Field, _shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
     """Solve an increment whose loads are at the friction limit, by the alternating iteration.
 
@@ -71,7 +71,6 @@ def solve_gross_slip(
 
     problem    operators, loads and friction law of the increment
     pressure   initial guess of p (n,)
-    shear      not used
     motion     rigid tangential motion, returned where gross slip does not determine it
     tolerance  limit of the dimensionless residuals
     raises     NotConverged

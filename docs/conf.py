@@ -52,7 +52,7 @@ def setup(app) -> None:
     app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
 
-def list_parameters(app, kind, name, thing, options, lines) -> None:
+def list_parameters(app, _kind, name, thing, _options, lines) -> None:
     """Convert a docstring to a parameter list for Sphinx.
 
     Lines that begin with a name and two spaces become parameters. For objects of a scene, the

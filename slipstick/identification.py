@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import exp, hypot, inf
 
 import numpy as np
@@ -109,54 +109,13 @@ def fit(
     """
     from scipy.optimize import least_squares
 
-    def with_values(logarithms: Numbers) -> tuple[FittedInput, ...]:
-        return tuple(
-            FittedInput(one.key, one.unit, one.first, one.first * exp(x - ORIGIN))
-            for one, x in zip(inputs, logarithms, strict=True)
-        )
-
+    curves = _Curves(inputs, compare)
     start = np.full(len(inputs), ORIGIN)
-    try:
-        first = compare(inputs, False)
-    except NothingToCompare as error:
-        raise NothingToCompare(f"with the first values of --fit, {error}") from None
-    known = {start.tobytes(): _residuals(first.numbers)}
-    count = len(known[start.tobytes()])
-    if count <= len(inputs):
-        raise NothingToCompare(f"got {count} points, expected more than inputs to fit")
-
-    def residuals(logarithms: Numbers) -> Numbers:
-        place = logarithms.tobytes()
-        if place not in known:
-            try:
-                known[place] = _residuals(compare(with_values(logarithms), False).numbers)
-            # Such as a Poisson's ratio above one half, gross sliding, or a loop without slip.
-            except (SceneError, SolverError, NothingToCompare):
-                known[place] = np.full(count, UNSOLVED)
-        if len(known[place]) != count:
-            raise NothingToCompare(
-                "the number of increments changes with the fitted inputs; set 'increments' of the "
-                "load steps"
-            )
-        return known[place]
-
-    def slopes(logarithms: Numbers) -> Numbers:
-        here, columns = residuals(logarithms), []
-        for row, one in enumerate(with_values(logarithms)):
-            beside = residuals(logarithms + STEP * (np.arange(len(inputs)) == row))
-            if np.all(beside == UNSOLVED):
-                raise NothingToCompare(
-                    f"near {one.key}={one.value:.6g} {one.unit}".rstrip()
-                    + " the scene has no solution or no loop; give another first value"
-                )
-            columns.append((beside - here) / STEP)
-        return np.stack(columns, axis=1)
-
-    _refuse_dependent(inputs, slopes(start))
+    _refuse_dependent(inputs, curves.slopes(start))
     best = least_squares(
-        residuals,
+        curves.residuals,
         start,
-        slopes,
+        curves.slopes,
         xtol=PRECISION / ORIGIN,
         ftol=PRECISION**2,
         max_nfev=MAX_ITERATIONS,
@@ -169,23 +128,82 @@ def fit(
             f"the fit does not converge in {MAX_ITERATIONS} iterations; give nearer first values, "
             "or fit fewer inputs"
         )
+    fitted = curves.inputs_at(best.x)
+    compared = compare(fitted, True)
     inverse = np.linalg.pinv(best.jac)
-    scatter = np.sqrt(np.sum(best.fun**2) / (count - len(inputs)) * np.sum(inverse**2, axis=1))
-    compared = compare(with_values(best.x), True)
+    variance = np.sum(best.fun**2) / (curves.points - len(inputs))
+    scatter = np.sqrt(variance * np.sum(inverse**2, axis=1))
     errors = _residual_errors(compared.numbers)
     by_errors = None if errors is None else np.abs(inverse) @ errors
-    fitted = tuple(
-        FittedInput(
-            one.key,
-            one.unit,
-            one.first,
-            one.value,
-            one.value * float(scatter[row]),
-            None if by_errors is None else one.value * float(by_errors[row]),
+    return tuple(
+        replace(
+            one,
+            by_scatter=one.value * float(scatter[row]),
+            by_errors=None if by_errors is None else one.value * float(by_errors[row]),
         )
-        for row, one in enumerate(with_values(best.x))
-    )
-    return fitted, compared
+        for row, one in enumerate(fitted)
+    ), compared
+
+
+class _Curves:
+    """Residuals of a measured table as functions of the logarithms of the inputs.
+
+    points  number of residuals
+
+    Raises NothingToCompare if the first values give no curve, or fewer points than inputs.
+    """
+
+    def __init__(
+        self,
+        inputs: Sequence[FittedInput],
+        compare: Callable[[Sequence[FittedInput], bool], Comparison],
+    ) -> None:
+        self._inputs = inputs
+        self._compare = compare
+        try:
+            first = _residuals(compare(inputs, False).numbers)
+        except NothingToCompare as error:
+            raise NothingToCompare(f"with the first values of --fit, {error}") from None
+        self._known = {np.full(len(inputs), ORIGIN).tobytes(): first}
+        self.points = len(first)
+        if self.points <= len(inputs):
+            raise NothingToCompare(f"got {self.points} points, expected more than inputs to fit")
+
+    def inputs_at(self, logarithms: Numbers) -> tuple[FittedInput, ...]:
+        return tuple(
+            FittedInput(one.key, one.unit, one.first, one.first * exp(x - ORIGIN))
+            for one, x in zip(self._inputs, logarithms, strict=True)
+        )
+
+    def residuals(self, logarithms: Numbers) -> Numbers:
+        """Solve the scene, and return the residuals of its curves (n,)."""
+        place = logarithms.tobytes()
+        if place not in self._known:
+            try:
+                compared = self._compare(self.inputs_at(logarithms), False)
+                self._known[place] = _residuals(compared.numbers)
+            # Such as a Poisson's ratio above one half, gross sliding, or a loop without slip.
+            except (SceneError, SolverError, NothingToCompare):
+                self._known[place] = np.full(self.points, UNSOLVED)
+        if len(self._known[place]) != self.points:
+            raise NothingToCompare(
+                "the number of increments changes with the fitted inputs; set 'increments' of the "
+                "load steps"
+            )
+        return self._known[place]
+
+    def slopes(self, logarithms: Numbers) -> Numbers:
+        """Return the slope of each residual by the logarithm of each input (n, m)."""
+        here, columns = self.residuals(logarithms), []
+        for row, one in enumerate(self.inputs_at(logarithms)):
+            beside = self.residuals(logarithms + STEP * (np.arange(len(logarithms)) == row))
+            if np.all(beside == UNSOLVED):
+                raise NothingToCompare(
+                    f"near {one.key}={one.value:.6g} {one.unit}".rstrip()
+                    + " the scene has no solution or no loop; give another first value"
+                )
+            columns.append((beside - here) / STEP)
+        return np.stack(columns, axis=1)
 
 
 def _residuals(numbers: Sequence[ComparedNumber]) -> Numbers:

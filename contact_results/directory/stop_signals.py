@@ -40,11 +40,10 @@ def cleaned_up_when_stopped(
         _open_blocks.remove(block)
 
 
-def _clean_up_and_exit(number: int, frame: FrameType | None) -> None:
+def _clean_up_and_exit(number: int, _frame: FrameType | None) -> None:
     """Handle a stop signal: clean up all blocks, print how to resume, and exit the process.
 
     number  number of the signal
-    frame   stack frame of the interrupted code; not used
     """
     hint = ""
     for clean, kept in reversed(_open_blocks):

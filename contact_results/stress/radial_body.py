@@ -119,7 +119,7 @@ class RadialBody:
         parts = BodyRegions.from_body(body, a, PRESSED.down, infinite=infinite)
         below = SubsurfaceDisc(contact, stack, REACH, fineness)
 
-        def fields(levels: Sequence[Level], x: Field, y: Field) -> Field:
+        def fields(levels: Sequence[Level], x: Field, _y: Field) -> Field:
             u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.compute_fields(levels, x), 1, 0)
             none = np.zeros_like(rr)
             return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)

@@ -79,11 +79,7 @@ def read_text_table(path: Path, name: str) -> TextTable:
     likely = likely or [line for line in lines if line.strip()] or [""]
     # The last line may be cut off, or be the only row below the heads.
     last = max(likely[:-3:-1], key=lambda line: sum(map(line.count, ";\t,")))
-    unquoted = re.sub('"[^"]*"', "", last)
-    separator = next((mark for mark in ";\t," if mark in unquoted), None)
-    spaced = unquoted.split()
-    if separator == "," and len(spaced) > 1 and all(map(_has_decimal_comma, spaced)):
-        separator = None
+    separator = _separator_of(last)
     width = len(_split(last, separator))
     table = TextTable(separator, [], [], [])
     decimal_signs = set[str]()
@@ -127,6 +123,16 @@ def read_text_table(path: Path, name: str) -> TextTable:
             "one decimal sign and no sign between thousands",
         )
     return table
+
+
+def _separator_of(line: str) -> str | None:
+    """Return the mark that separates the fields of a row, None for spaces."""
+    unquoted = re.sub('"[^"]*"', "", line)
+    separator = next((mark for mark in ";\t," if mark in unquoted), None)
+    spaced = unquoted.split()
+    if separator == "," and len(spaced) > 1 and all(map(_has_decimal_comma, spaced)):
+        return None
+    return separator
 
 
 def read_columns(

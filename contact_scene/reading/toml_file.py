@@ -146,15 +146,23 @@ def locate_keys(document: str) -> dict[Path, int]:
                 open_values.append((value, count() if text == "[" else None))
                 keys, value = [], None
             elif value is None and text == "=":
-                value = path
-                for key in keys:
-                    value = (*value, key)
-                    lines.setdefault(value, line)
+                value = _record_keys(path, keys, line, lines)
             elif value is None and is_key:
                 keys.append(_unquote_key(text))
             else:
                 brackets += text == "["
     return lines
+
+
+def _record_keys(table: Path, keys: list[str], line: int, lines: dict[Path, int]) -> Path:
+    """Record the line of dotted keys `a.b` in a table, and return the path of the last.
+
+    lines  line of each path, which is changed in place
+    """
+    for key in keys:
+        table = (*table, key)
+        lines.setdefault(table, line)
+    return table
 
 
 def _toml_tokens(document: str) -> Iterator[tuple[str, bool, int]]:

@@ -22,6 +22,12 @@ from contact_scene.scene import SceneFile
 _MISSING = "the key is missing"
 _NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attributes_type", "enum")
 _NO_ARRAY = ("tuple_type", "list_type")
+# Values of one kind, by the type of pydantic's error.
+_EXPECTED = {
+    "string_type": "a text of at most 500 characters",
+    "string_too_long": "a text of at most 500 characters",
+    "bool_type": "true or false",
+}
 # Keys of arrays of tables.
 _TABLES = ("layers", "loading")
 
@@ -55,18 +61,12 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
     context: dict[str, Any] = detail.get("ctx", {})
     if kind == "refused":
         return Problem(path, context["message"], context["expected"], context["hint"])
-    if kind == "missing" and isinstance(location[-1], str):
-        return Problem(path, _MISSING, _expected_value(location))
     if kind == "missing":
+        if isinstance(location[-1], str):
+            return Problem(path, _MISSING, _expected_value(location))
         return Problem(path[:-1], got, _expected_components(location[-2]))
     if kind == "extra_forbidden":
-        model = _model_at(location[:-1])
-        known = list(model.model_fields) if model else []
-        near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
-        hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
-        if path[-1] == "diameter" and "radius" in known:
-            return Problem(path, "unknown key", "half of it", _did_you_mean("radius"))
-        return Problem(path, "unknown key", hint=hint)
+        return _unknown_key(path, _model_at(location[:-1]))
     if kind.startswith("union_tag") and not isinstance(detail["input"], dict):
         hint = _bracket_hint(path, detail["input"])
         return Problem(path, got, "a table with shape and material", hint)
@@ -79,17 +79,30 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
         expected = "an array" if path[-1] in _TABLES else _expected_components(path[-1])
         return Problem(path, got, expected, _bracket_hint(path, detail["input"]))
     if kind in ("too_short", "too_long"):
-        number = context["actual_length"]
-        got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
-        least, most = context.get("min_length"), context.get("max_length")
-        return Problem(path, got, f"at most {most}" if least is None else f"at least {least}")
-    if kind in ("string_type", "string_too_long"):
-        return Problem(path, got, "a text of at most 500 characters")
-    if kind == "bool_type":
-        return Problem(path, got, "true or false")
+        return _wrong_number(path, context)
+    if kind in _EXPECTED:
+        return Problem(path, got, _EXPECTED[kind])
     if kind == "literal_error":
         return Problem(path, got, context["expected"].replace("'", '"'))
     return Problem(path, f"{got}: {detail['msg']}")
+
+
+def _unknown_key(path: Path, model: type[BaseModel] | None) -> Problem:
+    """Create the problem for an unknown key, with the most similar key of its table as the hint."""
+    known = list(model.model_fields) if model else []
+    if path[-1] == "diameter" and "radius" in known:
+        return Problem(path, "unknown key", "half of it", _did_you_mean("radius"))
+    near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
+    hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
+    return Problem(path, "unknown key", hint=hint)
+
+
+def _wrong_number(path: Path, context: Mapping[str, Any]) -> Problem:
+    """Create the problem for an array with too few or too many entries."""
+    number = context["actual_length"]
+    got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
+    least, most = context.get("min_length"), context.get("max_length")
+    return Problem(path, got, f"at most {most}" if least is None else f"at least {least}")
 
 
 def _document_path(document: Mapping[str, Any], detail: ErrorDetails) -> Path:

@@ -53,10 +53,11 @@ def clearance(stack: Stack, level: Level) -> float:
 
 
 @lru_cache(maxsize=1)
-def _known_tables(stack: Stack, reach: float, sheared: bool) -> dict[Level, RadialTable]:
+def _known_tables(_stack: Stack, _reach: float, _sheared: bool) -> dict[Level, RadialTable]:
     """Return the tables of one body that were computed already, by depth.
 
-    They are used again for the error estimate, with tractions in two other positions.
+    They are used again for the error estimate, with tractions in two other positions. The arguments
+    are the key of the cache.
     """
     return {}
 

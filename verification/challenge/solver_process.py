@@ -233,6 +233,21 @@ def _timed_answer(solve: Solve, problem: Posed, level: int) -> Answer:
     return replace(answer, label=answer.label or str(level), seconds=seconds)
 
 
+def _plain_scalar(value: object, name: str) -> float | tuple[float, float]:
+    """Convert a scalar of an answer, or a pair with its uncertainty, to float.
+
+    Raises Refused for other values, with the name in its message.
+    """
+    numbers = _plain_numbers(value, name)
+    if numbers.size == 1:
+        return float(numbers[0])
+    if isinstance(value, tuple) and numbers.size == 2:
+        return float(numbers[0]), float(numbers[1])
+    raise Refused(
+        f"{name} has {numbers.size} numbers, expected one, or a pair with its uncertainty"
+    )
+
+
 def plain_answer(answer: object, level: int) -> Answer:
     """Check the types of an answer of a solver function, and convert its numbers to float.
 
@@ -258,16 +273,7 @@ def plain_answer(answer: object, level: int) -> Answer:
     for key, value in given.items():
         if value is None:
             continue
-        numbers = _plain_numbers(value, f"level {level}: {key!r}")
-        if numbers.size == 1:
-            scalars[key] = float(numbers[0])
-        elif isinstance(value, tuple) and numbers.size == 2:
-            scalars[key] = float(numbers[0]), float(numbers[1])
-        else:
-            raise Refused(
-                f"level {level}: {key!r} has {numbers.size} numbers, expected one, or a pair "
-                "with its uncertainty"
-            )
+        scalars[key] = _plain_scalar(value, f"level {level}: {key!r}")
     for key, field in answer.fields.items():
         if not isinstance(field, Field):
             raise Refused(f"level {level}: {key!r} is {type(field).__name__}, expected a Field")

@@ -17,7 +17,7 @@ from contact_results.directory.run_directory import refuse_files_above
 from contact_results.files.stored_run import StoredRun, load
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.solvers import SolverName
-from contact_scene import read_scene_file
+from contact_scene import SceneFile, read_scene_file
 from contact_scene.accuracy import accuracy_texts
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.reading.quantity import Share
@@ -26,6 +26,7 @@ from slipstick.against import (
     MEASURED,
     PLACE,
     STEPS,
+    ComparedNumber,
     Comparison,
     NothingToCompare,
     Numbers,
@@ -34,7 +35,7 @@ from slipstick.against import (
 )
 from slipstick.against_files import write_comparison
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
+from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_if, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.identification import FittedInput, fit, read_first_values
 from slipstick.solving import save, solve, stated_errors
@@ -42,6 +43,7 @@ from slipstick.uncertain_inputs import changed_overrides, read_inputs
 from slipstick.validation import with_uncertainties
 
 FITTED_DIGITS = 8
+HEADS = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
 FITTED_HEADS = ("fitted", "first", "value ± scatter", "by errors")
 
 
@@ -143,11 +145,10 @@ def against(
         refuse_with_run(
             {"--set": overrides, "--solver": solver, "--inputs": inputs, "--fit": fitted}
         )
-    if inputs is not None and fitted is not None:
-        raise typer.BadParameter("got --inputs and --fit, expected one of them")
+    both = inputs is not None and fitted is not None
+    refuse_if(((both, "got --inputs and --fit, expected one of them"),))
     if output is not None:
         refuse_files_above(output)
-    chosen = solver or SolverName.SEMI_ANALYTICAL
     identified: tuple[FittedInput, ...] = ()
     try:
         required = _required_shares(require)
@@ -157,11 +158,7 @@ def against(
         def compare(changes: Sequence[str], *, errors: bool = True) -> Comparison:
             option = "--inputs" if fitted is None else "--fit"
             contents = read_scene_file(source, overrides or (), {option: changes})
-            result: Any = solve(contents, chosen.value)
-            stated = stated_errors(result) if errors else None
-            with TemporaryDirectory() as directory:
-                save(result, Path(directory) / "run", figures="none", errors=stated)
-                return _compare(measured, load(Path(directory) / "run"), step)
+            return _compare_scene(measured, contents, solver, step, errors=errors)
 
         if source.is_dir():
             compared = _compare(measured, load(source), step)
@@ -182,25 +179,7 @@ def against(
         failures = unmet(compared, required)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
-    rows = []
-    for each in compared.numbers:
-        unit = engineering_unit(max(abs(each.measured), abs(each.computed)), each.unit)
-        of_table, of_run, apart = (
-            Uncertainty(error, True) if error else None
-            for error in (each.of_table, each.error, each.uncertainty)
-        )
-        rows.append(
-            (
-                f"{each.name} ({unit.name})",
-                number_text(each.measured, of_table, unit.size),
-                number_text(each.computed, of_run, unit.size),
-                "–" if each.ratio is None else f"{each.ratio:.4f}",
-                number_text(each.gap, apart, unit.size),
-                "unknown" if each.ours is None else f"{100 * each.ours:.1f} %",
-            )
-        )
-    heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
-    print_table(heads, rows, numbers=True)
+    print_table(HEADS, map(_compared_row, compared.numbers), numbers=True)
     if identified:
         typer.echo()
         print_table(FITTED_HEADS, map(_fitted_row, identified), numbers=True)
@@ -219,6 +198,25 @@ def _compare(measured: Mapping[str, Numbers], run: StoredRun, step: int | None) 
     return comparison(measured, run, step)
 
 
+def _compare_scene(
+    measured: Mapping[str, Numbers],
+    contents: SceneFile,
+    solver: SolverName | None,
+    step: int | None,
+    *,
+    errors: bool,
+) -> Comparison:
+    """Solve a scene and compare the measured curves with it.
+
+    errors  false to omit the stated errors of the scene
+    """
+    result: Any = solve(contents, (solver or SolverName.SEMI_ANALYTICAL).value)
+    stated = stated_errors(result) if errors else None
+    with TemporaryDirectory() as directory:
+        save(result, Path(directory) / "run", figures="none", errors=stated)
+        return _compare(measured, load(Path(directory) / "run"), step)
+
+
 def _read_table(path: Path, columns: str | None) -> Mapping[str, Numbers]:
     """Read the measured columns of a table, and the load steps of the rows of a profile.
 
@@ -229,6 +227,23 @@ def _read_table(path: Path, columns: str | None) -> Mapping[str, Numbers]:
         with suppress(ValueError):
             return read_columns(path, {**MEASURED, **STEPS})
     return measured
+
+
+def _compared_row(one: ComparedNumber) -> tuple[str, ...]:
+    """Return the row of a compared number, with its values in one engineering unit."""
+    unit = engineering_unit(max(abs(one.measured), abs(one.computed)), one.unit)
+    of_table, of_run, apart = (
+        Uncertainty(error, True) if error else None
+        for error in (one.of_table, one.error, one.uncertainty)
+    )
+    return (
+        f"{one.name} ({unit.name})",
+        number_text(one.measured, of_table, unit.size),
+        number_text(one.computed, of_run, unit.size),
+        "–" if one.ratio is None else f"{one.ratio:.4f}",
+        number_text(one.gap, apart, unit.size),
+        "unknown" if one.ours is None else f"{100 * one.ours:.1f} %",
+    )
 
 
 def _fitted_row(one: FittedInput) -> tuple[str, ...]:

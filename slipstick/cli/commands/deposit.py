@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from datetime import date as Date
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -34,9 +33,11 @@ TRACE = {
 
 def deposit(
     output: Annotated[Path, typer.Option("--output", "-o", help="New directory of the crate.")],
-    date: Annotated[
+    published: Annotated[
         datetime,
-        typer.Option(formats=["%Y-%m-%d"], help="Date of publication, stored in the metadata."),
+        typer.Option(
+            "--date", formats=["%Y-%m-%d"], help="Date of publication, stored in the metadata."
+        ),
     ],
 ) -> None:
     """Write all reference tables as CSV and JSON in an RO-Crate (CC-BY; 3 min)."""
@@ -44,7 +45,7 @@ def deposit(
     if output.exists():
         raise typer.BadParameter(f"'{output}' exists; give a new directory")
     try:
-        write_crate(output, datasets(), date.date())
+        write_crate(output, datasets(), published.date())
     except ModuleNotFoundError as error:
         raise typer.BadParameter(f"{error}; install it with pip install '.[deposit]'") from error
     typer.echo(f"{output}: {len(list(output.iterdir()))} files")
@@ -121,7 +122,7 @@ def stored_datasets() -> Iterator[Dataset]:
     )
 
 
-def write_crate(folder: Path, found: Iterable[Dataset], published: Date) -> None:
+def write_crate(folder: Path, found: Iterable[Dataset], published: date) -> None:
     """Write tables as CSV and JSON with the metadata of an RO-Crate.
 
     Raises ImportError without the library rocrate.

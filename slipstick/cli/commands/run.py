@@ -115,25 +115,11 @@ def run(
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from contact_results.directory.timing import Stopwatch, write_timing
     from contact_results.omitted_parts import OmittedParts
-    from contact_scene import read_scene_file
-    from slipstick.cli.terminal import print_message, print_table
+    from slipstick.cli.terminal import print_message
 
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
-        uncertain: tuple[UncertainInput, ...] = ()
-        own: list[str] = []
-        pairs: list[tuple[list[str], list[str]]] = []
-        if inputs is not None:
-            from slipstick.uncertain_inputs import changed_overrides, read_inputs
-
-            uncertain = read_inputs(inputs)
-            own = [one.override() for one in uncertain]
-            pairs = changed_overrides(uncertain)
-        contents = read_scene_file(scene, overrides or (), {"--inputs": own})
-        changed = [
-            [read_scene_file(scene, overrides or (), {"--inputs": changes}) for changes in pair]
-            for pair in pairs
-        ]
+        contents, uncertain, changed = _read_scenes(scene, overrides or (), inputs)
         request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
         expectation = read_expectation(
             expect, save_expected, lambda: _source(contents, solver), error=error
@@ -174,7 +160,7 @@ def run(
                 from contact_errors.coarse_solves import stated_errors
 
                 stated = omitted.compute("the errors", lambda: stated_errors(result), None)
-        by_inputs = None
+        by_inputs: Mapping[str, list[str]] | None = None
         if uncertain:
             with stopwatch.phase("inputs"):
                 by_inputs = omitted.compute(
@@ -192,10 +178,7 @@ def run(
     if request is None:
         remove_level_checkpoints(output)
     _print_outcome(chosen, written, stopwatch.wall_seconds)
-    if by_inputs:
-        print_table(by_inputs, zip(*by_inputs.values(), strict=True), numbers=True)
-    elif by_inputs is not None:
-        typer.echo("  the inputs change no number at the end of the last step")
+    _print_uncertainty(by_inputs)
     for warning in written.warnings:
         if warning not in printed:
             print_message(f"warning: {warning}")
@@ -215,6 +198,30 @@ def run(
         raise typer.Exit(exit_code(causes[0]))
     if worse:
         raise typer.Exit(worse)
+
+
+def _read_scenes(
+    path: "Path", overrides: "Sequence[str]", inputs: str | None
+) -> "tuple[SceneFile, tuple[UncertainInput, ...], Sequence[Sequence[SceneFile]]]":
+    """Read the scene, the uncertain inputs, and the scenes with one changed input.
+
+    path       scene file
+    overrides  texts of the option `--set`
+    inputs     text of the option `--inputs`, or None
+    returns    scene; uncertain inputs; scene with one deviation less and more of each input
+    """
+    from contact_scene import read_scene_file
+
+    if inputs is None:
+        return read_scene_file(path, overrides), (), ()
+    from slipstick.uncertain_inputs import changed_overrides, read_inputs
+
+    def changed(changes: "Sequence[str]") -> "SceneFile":
+        return read_scene_file(path, overrides, {"--inputs": changes})
+
+    uncertain = read_inputs(inputs)
+    contents = changed([one.override() for one in uncertain])
+    return contents, uncertain, [list(map(changed, pair)) for pair in changed_overrides(uncertain)]
 
 
 def _uncertainty_by_inputs(
@@ -250,6 +257,16 @@ def _uncertainty_by_inputs(
     numbers = uncertain_numbers(last_step(report), ends, line=line)
     write_uncertainties(inputs, numbers, directory / INPUTS)
     return uncertainty_columns(inputs, numbers)
+
+
+def _print_uncertainty(by_inputs: "Mapping[str, list[str]] | None") -> None:
+    """Print the table of the uncertainty by inputs; None if it was not requested."""
+    from slipstick.cli.terminal import print_table
+
+    if by_inputs:
+        print_table(by_inputs, zip(*by_inputs.values(), strict=True), numbers=True)
+    elif by_inputs is not None:
+        typer.echo("  the inputs change no number at the end of the last step")
 
 
 def _source(contents: "SceneFile", solver: SolverName) -> "Source":

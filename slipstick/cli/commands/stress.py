@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
@@ -32,7 +32,7 @@ from contact_results.stress.stress_maxima import extremes, maxima_columns, stres
 from contact_results.stress_result import write_history, write_stress
 from contact_scene import Body, Scene, SceneFile, read_scene_file
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
-from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from contact_scene.reading import units
 from contact_scene.reading.quantity import Length
 from contact_scene.reading.text_table import TABLE_SUFFIXES, ColumnNames, read_columns
@@ -193,9 +193,10 @@ def stress(
     if not source.is_dir():
         contents = read_scene_file(source, overrides or ())
         steps = len(contents.scene.loading)
-        if step is not None and step > steps:
-            raise typer.BadParameter(f"there is no step {step}; the scene has steps 1 to {steps}")
         # Refuse before the solve.
+        refuse_if(
+            ((step and step > steps, f"there is no step {step}; the scene has steps 1 to {steps}"),)
+        )
         _parse_points(at or [], contents.scene, indenter)
         _depth_levels(contents.scene, indenter, chosen_depths or (), "--depths")
     if at or history:
@@ -272,17 +273,8 @@ def stress(
         print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
-    for text in doubts:
+    for text in [*doubts, *_omissions(state, field, errors)]:
         typer.echo(f"  {text}")
-    edge: Any = field.how.get("edge")
-    if edge is not None and not edge["fitted"]:
-        typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
-    # Without shear, the radial solver has no increment error.
-    on_disc = state.pressed is not None and not is_sheared(state)
-    if errors is None:
-        typer.echo("  no errors, because of --no-error")
-    elif not on_disc and state.by_increments is None:
-        typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")
     worse = 0
     if expectation is not None:
@@ -292,6 +284,21 @@ def stress(
     exit_unless_met(reached)
     if worse:
         raise typer.Exit(worse)
+
+
+def _omissions(
+    state: LoadedBodies, field: StressField, errors: Sequence[StatedError] | None
+) -> Iterator[str]:
+    """Yield what the largest stresses do not contain, and what their errors do not."""
+    edge: Any = field.how.get("edge")
+    if edge is not None and not edge["fitted"]:
+        yield f"no correction of the stress near the contact edge: {edge['because']}"
+    # Without shear, the radial solver has no increment error.
+    on_disc = state.pressed is not None and not is_sheared(state)
+    if errors is None:
+        yield "no errors, because of --no-error"
+    elif not on_disc and state.by_increments is None:
+        yield "errors without that of increments, which the run does not state"
 
 
 def _source(

@@ -661,6 +661,23 @@ class Loads:
     friction: float
     push: float
 
+    @property
+    def full(self) -> float:
+        """Tangential force T [force] of a complete push."""
+        return self.push * self.friction * self.normal_force
+
+    def ramp(self, increments: int, *, W: float | None = None, T: float | None = None) -> LoadStep:
+        """Create a load step to fractions of both forces.
+
+        increments  number of increments
+        W, T        fractions of the normal and of the full tangential force; None keeps the force
+        """
+        return LoadStep(
+            normal_force=None if W is None else W * self.normal_force,
+            tangential_force=None if T is None else (T * self.full, 0.0),
+            increments=increments,
+        )
+
 
 def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
     """Return the load steps of a contact of the stability map for one kind of loading path.
@@ -670,47 +687,31 @@ def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
     path   kind of loading path
     loads  normal force, approach, coefficient of friction, and tangential force over µW
     """
-    full = loads.push * loads.friction * loads.normal_force
-
-    def to(increments: int, *, W: float | None = None, T: float | None = None) -> LoadStep:
-        """Create a load step that ramps the normal or tangential force to a fraction of its full
-        value.
-
-        increments  number of increments
-        W           fraction of the full normal force; None keeps the force of the preceding step
-        T           fraction of the full tangential force; None keeps the force of the preceding
-                    step
-        """
-        return LoadStep(
-            normal_force=None if W is None else W * loads.normal_force,
-            tangential_force=None if T is None else (T * full, 0.0),
-            increments=increments,
-        )
 
     def shift(increments: int, by: float) -> LoadStep:
         return LoadStep(tangential_shift=(by, 0.0), increments=increments)
 
-    press, push = to(PRESSING, W=1.0), to(1, T=1.0)
+    press, push = loads.ramp(PRESSING, W=1.0), loads.ramp(1, T=1.0)
     match path:
         case LoadingPath.PRESS:
             return (press,)
         case LoadingPath.PUSH:
             return press, push
         case LoadingPath.LOOP:
-            return press, push, to(2, T=-1.0), to(2, T=1.0)
+            return press, push, loads.ramp(2, T=-1.0), loads.ramp(2, T=1.0)
         case LoadingPath.CIRCLE:
             angles = np.linspace(0, 2 * np.pi, ONCE_ROUND + 1)
-            turns = ((full * float(np.cos(t)), full * float(np.sin(t))) for t in angles)
+            turns = ((loads.full * float(np.cos(t)), loads.full * float(np.sin(t))) for t in angles)
             return press, *(LoadStep(tangential_force=force, increments=1) for force in turns)
         case LoadingPath.REVERSED:
             part = min(1.0, REVERSED_AT / max(loads.push, REVERSED_AT))
-            return press, push, to(3, T=-0.99 * part, W=REVERSED_AT)
+            return press, push, loads.ramp(3, T=-0.99 * part, W=REVERSED_AT)
         case LoadingPath.RELOADED:
-            return press, to(4, W=LEAST), to(3, W=1.0)
+            return press, loads.ramp(4, W=LEAST), loads.ramp(3, W=1.0)
         case LoadingPath.SHEARED_RELOAD:
-            return press, push, to(4, T=0.0, W=LEAST), to(3, T=1.0, W=1.0)
+            return press, push, loads.ramp(4, T=0.0, W=LEAST), loads.ramp(3, T=1.0, W=1.0)
         case LoadingPath.FALLING:
-            return press, push, to(3, W=min(1.0, loads.push / NEARLY_ALL))
+            return press, push, loads.ramp(3, W=min(1.0, loads.push / NEARLY_ALL))
         case LoadingPath.SLIDE:
             unit = max(loads.friction, LEAST) * loads.approach
             return press, shift(2, 0.5 * unit), shift(2, SLIDES_FAR * unit), shift(2, 0.0)
