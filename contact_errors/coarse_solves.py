@@ -45,8 +45,6 @@ from contact_scene.stepping.increment_error import has_increment_error
 # stick radius in the gallery's scene spence is 2.7 times that with 8.
 MANY = 32
 FEW = 8
-# Coarsening factor of a load step if every second point of an indenter is left out.
-TWICE = (2.0,)
 # Largest number of refinements until the cells resolve the contact, and their factor.
 MAX_DOUBLINGS = 5
 DOUBLING = 2.0
@@ -100,7 +98,7 @@ def compare_with_coarse_solves(
     if half is not None:
         required["map"] = every_step
         if references and (fewer := _references(half)):
-            comparisons.append(Comparison("map", references[0], fewer[0], TWICE * len(values)))
+            comparisons.append(Comparison("map", references[0], fewer[0], (2.0,) * len(values)))
     effects: list[Effect] = []
     if any(matters):
         few = (solver.few(replace(run, space=space), result) for space in spaces.values())
@@ -241,7 +239,7 @@ def _compare_cells(
         if half is not None and (
             other := solves.solve("every second point of the indenter", here, half)
         ):
-            comparisons.append(Comparison("map", found[1], other[1], TWICE * len(values)))
+            comparisons.append(Comparison("map", found[1], other[1], (2.0,) * len(values)))
             half = None
     for ratio, (coarse_values, coarse_features) in meshes.items():
         factors = (ratio,) * len(values)
