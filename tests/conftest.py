@@ -48,7 +48,7 @@ LONGEST = (
     "test_adapters",
     "test_memory_estimate",
     "test_friction_in_solvers",
-    "test_one_case",
+    "test_loaded_modules",
     "test_study_running",
     "test_separation",
     "test_fem_compliance",

@@ -1,21 +1,16 @@
 """Tests of the command line: messages, exit codes, imports, and files that must stay unchanged."""
 
 import errno
-import json
 import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from command import slipstick
-from synthetic_result import synthetic_result
+from small_result import small_result
 
 from contact_results.blas_threads import VARIABLES
-from contact_results.directory.file_names import SUMMARY
-from contact_results.solvers import SolverName
 from contact_scene.solver_errors import (
     AccuracyOutOfReach,
     ContactAtWindowEdge,
@@ -32,8 +27,6 @@ from contact_scene.solver_errors import (
 from fem_reference.mesh.gmsh_mesh import GmshMissing
 from semi_analytical.discretised import CellSolver
 from slipstick.cli import main
-
-ROOT = Path(__file__).resolve().parents[1]
 
 SCENE = """
 title = "Ball on a flat"
@@ -54,7 +47,6 @@ increments = 3
 tangential_force = ["-90 N", 0]
 increments = 2
 """
-HEAVY = ("scipy", "matplotlib", "h5py", "pint", "jinja2", "skfem", "semi_analytical")
 
 
 @pytest.fixture
@@ -70,7 +62,7 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
 
     def replace_by(failure: Exception | None) -> None:
         def run(solver: CellSolver, progress: Any, store: Any = None) -> Any:
-            result = synthetic_result()
+            result = small_result()
             for increment in result.increments:
                 progress(increment)
             if failure is not None:
@@ -80,68 +72,6 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
         monkeypatch.setattr(CellSolver, "run", run)
 
     return replace_by
-
-
-IMPORTING = """
-import json, sys
-from slipstick.cli import main
-for command, leaving in json.loads(sys.argv[1]):
-    try: main(command)
-    except SystemExit as left: assert (left.code or 0) == leaving, left.code
-    print("\\nimported", *{name.partition(".")[0] for name in sys.modules})
-"""
-
-
-def imported_after(*commands: tuple[object, ...], leaving: int = 0) -> list[set[str]]:
-    """Top-level modules that a fresh process has imported after each command; the last ends so."""
-    codes = [0] * (len(commands) - 1) + [leaving]
-    asked = [([*map(str, c)], code) for c, code in zip(commands, codes, strict=True)]
-    outcome = subprocess.run(
-        [sys.executable, "-c", IMPORTING, json.dumps(asked)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    told = [line.split() for line in outcome.stdout.splitlines() if line.startswith("imported ")]
-    assert len(told) == len(commands)
-    return [{*names[1:]} for names in told]
-
-
-# ---- starting ---------------------------------------------------------------------------------
-
-
-def test_help_schema_check_and_mistakes_import_nothing_heavy(scene: Path) -> None:
-    commands = (
-        ("--help",),
-        ("maintain", "schema", "summary"),
-        ("check", scene),
-        ("check", "absent.toml"),
-    )
-    helped, *others = imported_after(*commands, leaving=2)
-    assert not helped & {*HEAVY, "numpy", "pydantic"}
-    for imported in others:
-        assert not imported & {*HEAVY, "verification"}
-
-
-@pytest.mark.parametrize("solver", [SolverName.SEMI_ANALYTICAL, SolverName.FEM])
-def test_a_solver_is_used_without_the_other_and_without_the_harness(
-    scene: Path, solver: SolverName
-) -> None:
-    own, other = ("fem_reference", "semi_analytical")[:: 1 if solver.is_fem else -1]
-    coarse = ("semi_analytical.cells=[16,16]", "fem_reference.elements_per_radius=4")
-    asked = (scene, "--solver", solver, *(word for each in coarse for word in ("--set", each)))
-    out = scene.parent / "out"
-    run = ("run", *asked, "-o", out, "--figures", "none", "--no-error")
-    for imported in imported_after(("plan", *asked), run):
-        assert own in imported
-        assert not imported & {other, "rich", "verification"}
-    assert (out / SUMMARY).exists()
-
-
-def test_contact_without_friction_is_solved_without_scipy(tmp_path: Path) -> None:
-    run = ("run", "scenes/hertz.toml", "-o", tmp_path / "out", "--figures", "none", "--no-error")
-    assert "scipy" not in imported_after(run)[0]
 
 
 # ---- failures of a run ------------------------------------------------------------------------

@@ -14,7 +14,7 @@ import pytest
 from command import outcome
 from conftest import leave_figures_undrawn
 from scene_texts import COARSE, STEEL_BALL_PRESSED
-from synthetic_result import synthetic_result
+from small_result import small_result
 
 from contact_results.directory.file_names import SUMMARY
 from contact_scene.quantities.summary import summary_schema
@@ -230,5 +230,5 @@ def test_a_saved_result_names_what_could_not_be_computed(
 ) -> None:
     monkeypatch.setattr(PARTS["the page"], lambda *_: 1 / 0)
     with pytest.warns(UserWarning, match="the page could not be computed"):
-        save(synthetic_result(), tmp_path / "out")
+        save(small_result(), tmp_path / "out")
     assert load(tmp_path / "out").summary.warnings[-1].startswith("the page could not")
