@@ -176,11 +176,11 @@ HALVED = 0.25 * 2.0 ** -np.arange(6)
 LIMIT = 3.0
 
 
-def judged_change(errors, expected, not_yet=None):
+def judged_change(errors, expected, not_yet=None, sizes=HALVED, apart=1):
     """The verdict on levels with these errors, the limit unknown to the judge."""
     results = {
         f"level {n}": SimpleNamespace(size=size, value=LIMIT + error)
-        for n, (size, error) in enumerate(zip(HALVED, errors, strict=True))
+        for n, (size, error) in enumerate(zip(sizes, errors, strict=True))
     }
     order = Order(
         "order",
@@ -193,7 +193,7 @@ def judged_change(errors, expected, not_yet=None):
         not_yet,
         refined=Refinement.INCREMENTS,
         size=lambda result: result.size,
-        apart=1,
+        apart=apart,
     )
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     case = Case("planted", "planted", "", runs, (), orders=(order,))
@@ -210,24 +210,7 @@ def test_planted_order_passes_and_another_fails(order):
 
 def test_changes_over_two_levels_tell_the_same_order():
     sizes = 0.25 * 2.0 ** (-np.arange(9) / 2)
-    results = {
-        f"level {n}": SimpleNamespace(size=size, value=LIMIT + 0.1 * size**1.5)
-        for n, size in enumerate(sizes)
-    }
-    runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
-    order = Order(
-        "order",
-        Followed.APPROACH,
-        "a planted value",
-        tuple(results),
-        lambda one, other: abs(one.value - other.value),
-        1.5,
-        "planted",
-        refined=Refinement.INCREMENTS,
-        size=lambda result: result.size,
-        apart=2,
-    )
-    verdict = judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
+    verdict = judged_change(0.1 * sizes**1.5, 1.5, sizes=sizes, apart=2)
     assert verdict.value == pytest.approx(1.5, abs=1e-6)
     assert verdict.order.sizes == pytest.approx(sizes[:-2])
     assert "7 changes" in verdict.because

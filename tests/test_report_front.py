@@ -9,33 +9,21 @@ import pytest
 from report_examples import case, report_of, run_record, verdict
 
 from verification.judging.outcome import (
-    RESIDUAL,
     CaseOutcome,
-    Change,
-    ChangeKind,
-    Origin,
     Status,
     Verdict,
     error_text,
 )
 from verification.report.file_names import PACKED, PAGE, RECORD, SHEETS
 from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
-from verification.report.page import cases_by_physics, line_of, render_page, render_sheets
-from verification.report.summary_text import claims_line, moved_rows, power_text, worse_rows
+from verification.report.page import cases_by_physics, render_page, render_sheets
+from verification.report.summary_text import claims_line, power_text
 from verification.running.report_record import dump_report, load_report
 
 
 def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
     one = case(name, {}, run_record(64, None), drawn=False)
     return one.model_copy(update={"verdicts": verdicts})
-
-
-def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
-    near, far = verdict("radius", 1.009, 1.0), verdict("approach", 1.001, 1.0)
-    solved = verdict(RESIDUAL, 1.0099, 1.0)  # how well it was solved tells nobody what is right
-    assert line_of(judged(far, near, solved)) == "3 verdicts; radius uses 90 % of what is allowed"
-    wrong = verdict("energy", 1.02, 1.0)
-    assert line_of(judged(near, wrong)).startswith("1 of 2 verdicts passed; energy uses 200 %")
 
 
 def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first() -> None:
@@ -88,30 +76,6 @@ def test_a_claim_that_is_inconclusive_does_not_hold() -> None:
     stated = [SimpleNamespace(outcome=outcome) for outcome in outcomes]
     record: Any = SimpleNamespace(level="full", conclusion=SimpleNamespace(statements=stated))
     assert claims_line(record) == "1 of its 3 judged claims hold (level full)"
-
-
-def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
-    def compared(name: str, kind: ChangeKind) -> Verdict:
-        was = Change(kind=kind, recorded=kind is not ChangeKind.NEW, was=1.0, moved=0.2, since="x")
-        return verdict(name, 1.001, 1.0).model_copy(update={"regression": was})
-
-    kinds = {
-        "dear": ChangeKind.WORSE,
-        "moved": ChangeKind.DRIFT,
-        "fresh": ChangeKind.NEW,
-        "still": ChangeKind.UNCHANGED,
-    }
-    one = judged(*(compared(name, kind) for name, kind in kinds.items()))
-    origin = Origin(commit="1a2b3c4", changed=False, date="2000-01-01", reason="first")
-    report = report_of((one.model_copy(update={"baseline": origin}),))
-    assert [row.name for row in moved_rows(report)] == ["dear", "moved"]
-    assert [row.name for row in worse_rows(report)] == ["dear"]
-    header = render_page(report).split("</header>")[0]
-    assert "worse than the recorded numbers" in header
-    assert f'<a href="{SHEETS}#one">one/dear</a>' in header
-    assert "one/moved" not in header
-    calm = render_page(report_of((judged(compared("still", ChangeKind.UNCHANGED)),)))
-    assert "nothing is worse" in calm.split("</header>")[0]
 
 
 def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) -> None:

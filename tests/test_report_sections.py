@@ -14,21 +14,11 @@ from report_examples import (
 from verification.exhibits.chart import Table
 from verification.judging.outcome import Status
 from verification.report.file_names import SHEETS
-from verification.report.page import MAX_CHARTS, heading, render_page
+from verification.report.page import MAX_CHARTS, render_page
 from verification.report.summary_text import features, stored_records
 from verification.running.study import StudyRecord, dump_study
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-def test_every_column_of_numbers_has_a_unit_or_none() -> None:
-    rows = (("a", "1.2e-3", "4.2 ms", "3", "✓ 0.2", "fine"), ("b", "–", "9 ms", "4", "–", "bad"))
-    columns = ("name", "shift", "took", "cells", "error", "end")
-    table = Table(title="t", columns=columns, rows=rows, units={"shift": "µm"})
-    found = [heading(table, column) for column in range(6)]
-    assert found == ["name", "shift [µm]", "took", "cells [–]", "error [–]", "end"]
-    old = table.model_copy(update={"units": None})
-    assert tuple(heading(old, column) for column in range(6)) == columns
 
 
 def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:

@@ -16,7 +16,7 @@ from command import slipstick
 from report_examples import case, made_by, report_of, run_record, study, verdict
 
 from slipstick.cli.errors import ExitCode, exit_code
-from verification.cases.catalogue import CaseToJudge, JudgedCase, choose
+from verification.cases.catalogue import choose
 from verification.cases.requirements import unmet
 from verification.judging.case import Level
 from verification.judging.outcome import CaseOutcome, Status, verdict_order_text
@@ -30,7 +30,6 @@ from verification.report.summary_text import (
     render_summary,
 )
 from verification.running import provenance
-from verification.running.case_pool import CaseStore, DamagedRecord, _record_digest
 from verification.running.provenance import Provenance
 from verification.running.report_record import EARLIER, Report, load_report
 from verification.running.study import LostCase, StudyRecord
@@ -63,21 +62,6 @@ def edited(record: Path, edit: Callable[[dict[str, Any]], object]) -> None:
     content = json.loads(record.read_text(encoding="utf-8"))
     edit(content)
     record.write_text(json.dumps(content), encoding="utf-8")
-
-
-def chosen_of(cases: tuple[CaseOutcome, ...]) -> Report:
-    return report_of(cases).model_copy(update={"chosen": True})
-
-
-def test_cases_of_another_level_are_not_missed(places: tuple[Path, Path]) -> None:
-    report, baselines = places
-    (one, *_) = three_cases().cases
-    full = chosen_of((one,)).model_copy(update={"level": "full"})
-    accept(full, REASON, baselines, with_changes=True)
-    write_report(full, report)
-    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 0
-    write_report(chosen_of((one,)), report)
-    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 2
 
 
 # ---- the report before -------------------------------------------------------------------------
@@ -147,12 +131,7 @@ def first_verdict(report: dict[str, Any]) -> dict[str, Any]:
 
 
 FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
-    "no error": (lambda r: first_verdict(r).update(error=None), "its error is"),
     "no value": (lambda r: first_verdict(r).update(value=None, error=None), "status is pass"),
-    "inconclusive": (
-        lambda r: first_verdict(r).update(status="inconclusive"),
-        "its status is inconclusive",
-    ),
     "vague order that passes": (
         lambda r: first_verdict(r).update(tolerance_kind="order", interval=0.4),
         "its status is pass",
@@ -173,20 +152,6 @@ def test_report_that_contradicts_itself_is_refused(tmp_path: Path, forgery: str)
     edited(tmp_path / RECORD, edit)
     with pytest.raises(ValueError, match=said):
         load_report(tmp_path / RECORD)
-
-
-def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
-    store, asked = CaseStore(tmp_path, JudgedCase), CaseToJudge("one", "QUICK")
-    store.save(asked, JudgedCase(outcome=a_case("one"), seconds=1.0))
-    assert store.load(asked) is not None
-
-    def forge(document: dict[str, Any]) -> None:
-        document["record"]["outcome"]["verdicts"][0]["value"] = 1.5
-        document["sha256"] = _record_digest(document["record"])
-
-    edited(store.path(asked), forge)
-    with pytest.raises(DamagedRecord, match="is damaged"):
-        store.load(asked)
 
 
 @pytest.mark.parametrize(
@@ -238,18 +203,6 @@ def test_full_disk_leaves_no_record_and_names_the_file(
     assert raised.value.filename == str(tmp_path / "summary.md")
     assert exit_code(raised.value) is ExitCode.RESOURCES_REFUSED
     assert {path.name for path in tmp_path.iterdir()} == FILES - {RECORD}
-
-
-def test_source_that_git_does_not_vouch_for_counts_as_changed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    answers: dict[str, str | None] = {"rev-parse": "1a2b3c4", "status": None}
-    monkeypatch.setattr(provenance, "_git", lambda command, *_: answers[command])
-    assert provenance.provenance("", {}).changed
-    answers["status"] = ""
-    assert not provenance.provenance("", {}).changed
-    answers["status"] = " M semi_analytical/solve.py"
-    assert provenance.provenance("", {}).changed
 
 
 def test_kept_report_that_is_set_aside_is_no_change_of_the_source(

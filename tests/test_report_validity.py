@@ -1,12 +1,12 @@
-"""Table of validity of a verification report: tested parameters and the largest errors in them."""
+"""Tests of the table of validity: tested parameters and the largest errors in them."""
 
-from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from report_examples import STEEL, case, report_of, run_record
 
 from contact_scene import (
-    RIGID,
     Body,
     CoulombFriction,
     IsotropicMaterial,
@@ -23,16 +23,11 @@ from verification.report.validity import validity_table
 COATING = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
 
 
-@dataclass
-class Increment:
-    contact_radius: float
-    normal_force: float
-    tangential_force: tuple[float, float] | None
-
-
-@dataclass
-class Result:
-    increments: tuple[Increment, ...]
+def result_of(*rows: tuple[float, float, tuple[float, float] | None]) -> Any:
+    """Increments of a contact radius, a normal force and a tangential force."""
+    names = ("contact_radius", "normal_force", "tangential_force")
+    increments = [SimpleNamespace(**dict(zip(names, row, strict=True))) for row in rows]
+    return SimpleNamespace(increments=increments)
 
 
 def coated(body: Body, friction: CoulombFriction | None) -> Scene:
@@ -45,26 +40,14 @@ def test_parameters_are_those_of_the_largest_contact_and_the_largest_tangential_
     scene = coated(Body(material=STEEL, layers=layers), CoulombFriction(coefficient=0.2))
     rows = [(1e-4, 50.0, None), (4e-4, 1e3, (90.0, 120.0)), (2e-4, 500.0, (10.0, 0.0))]
     empty = (0.0, 0.0, (0.0, 0.0))  # separated
-    result = Result(tuple(Increment(*row) for row in [*rows, empty]))
-    assert dimensionless_parameters(scene, result) == {  # type: ignore[arg-type]
+    result = result_of(*rows, empty)
+    assert dimensionless_parameters(scene, result) == {
         "h/a": (0.25,),
         "E1/E2": (2.0,),
         "ν": (0.2, 0.3),
         "µ": (0.2,),
         "T/(µW)": (0.75,),
     }
-
-
-def test_absent_effects_have_no_parameter_and_a_rigid_substrate_has_the_ratio_0() -> None:
-    layers = (Layer(thickness=1e-4, material=COATING),)
-    pressed = Result((Increment(2e-4, 1e3, None),))
-    on_rigid = dimensionless_parameters(coated(Body(material=RIGID, layers=layers), None), pressed)  # type: ignore[arg-type]
-    assert on_rigid == {"h/a": (0.5,), "E1/E2": (0.0,), "ν": (0.2, 0.3)}
-    plain = dimensionless_parameters(coated(Body(material=STEEL), None), pressed)  # type: ignore[arg-type]
-    assert plain == {"ν": (0.3,)}
-    apart = Result((Increment(0.0, 0.0, (0.0, 0.0)),))
-    sheared = coated(Body(material=STEEL, layers=layers), CoulombFriction(coefficient=0.2))
-    assert dimensionless_parameters(sheared, apart).keys() == {"E1/E2", "ν", "µ"}  # type: ignore[arg-type]
 
 
 def judged_at(
@@ -95,11 +78,6 @@ def test_a_row_has_the_tested_range_and_the_largest_error_in_it(
         ("µ", "0.05 to 0.1", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
     )
     assert "Validity" in render_page(report_of(cases))
-
-
-def test_a_report_without_parameters_has_no_table(cases: tuple[CaseOutcome, ...]) -> None:
-    assert not validity_table(report_of(cases[2:])).rows
-    assert "Validity" not in render_page(report_of(cases[2:]))
 
 
 def test_errors_to_the_same_program_count_for_the_tolerance_only(

@@ -80,11 +80,6 @@ def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> N
     again = json.loads((scene.parent / "again/summary.json").read_text(encoding="utf-8"))
     assert again["steps"][-1]["peak_pressure"] == float(found[4]["peak_pressure [Pa]"])
     assert (scene.parent / "out/sweep.png").stat().st_size > 5000
-
-    before = (scene.parent / "out/sweep.csv").read_bytes()
-    resumed = sweep(scene, *varied, *wanted)
-    assert resumed.stderr.count("already there") == 6
-    assert (scene.parent / "out/sweep.csv").read_bytes() == before
     scene.write_text(HERTZ.replace("0.3 }\n[body]", "0.2 }\n[body]"), encoding="utf-8")
     assert "already there" not in sweep(scene, *varied, *wanted).stderr
 
