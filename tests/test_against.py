@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import outcome, rows
+from command import outcome, rows, succeeded
 
 from contact_results.files.stored_run import load
 from slipstick.against import ComparedNumber, comparison
@@ -47,8 +47,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A scene and its run in `run`."""
     directory = tmp_path_factory.mktemp("against")
     (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
-    ended = outcome("run", "scene.toml", "-o", "run", "--figures", "none", cwd=directory)
-    assert ended.returncode == 0, ended.stderr
+    succeeded("run", "scene.toml", "-o", "run", "--figures", "none", cwd=directory)
     return directory
 
 
@@ -67,8 +66,7 @@ def column(path: Path, name: str, steps: tuple[str, ...]) -> np.ndarray:
 def against(place: Path, measured: Path, *arguments, run: str = "run") -> dict[str, list[str]]:
     """Cells of the printed table by the name of its row: measured, computed, ratio, difference,
     and our part."""
-    ended = outcome("against", measured, run, *arguments, cwd=place)
-    assert ended.returncode == 0, ended.stderr
+    ended = succeeded("against", measured, run, *arguments, cwd=place)
     lines = (re.split(r"\s{2,}", line.strip()) for line in ended.stdout.splitlines())
     return {cells[0].split(" (")[0]: cells[1:] for cells in lines if len(cells) == 6}
 
@@ -86,8 +84,7 @@ def compared(place: Path, output: str) -> dict[str, Any]:
 
 def against_scene(place: Path, measured: Path, scene: str, *options: object) -> dict[str, Any]:
     """Record of a comparison with a scene, which is solved for it."""
-    ended = outcome("against", measured, scene, *options, "-o", "compared", cwd=place)
-    assert ended.returncode == 0, ended.stderr
+    succeeded("against", measured, scene, *options, "-o", "compared", cwd=place)
     return compared(place, "compared")
 
 
@@ -255,8 +252,7 @@ def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> No
         assert outcome(*command, cwd=place).returncode == code
     assert compared(place, "compared")["numbers"]["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
     assert (place / "compared/against.png").read_bytes().startswith(b"\x89PNG")
-    inside = outcome("against", lab.absolute(), ".", *CHOSEN, "-o", "../in", cwd=place / "run")
-    assert inside.returncode == 0, inside.stderr
+    succeeded("against", lab.absolute(), ".", *CHOSEN, "-o", "../in", cwd=place / "run")
     assert compared(place, "in")["title"] == f"{lab.name} and run"
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from command import outcome, signalled
+from command import signalled, succeeded
 from scene_texts import STEEL_ON_STEEL
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,8 +84,7 @@ def started(directory: Path, *words: str, by: str = "") -> "subprocess.Popen[str
 
 def completed(directory: Path) -> tuple[str, dict[str, bytes]]:
     """Messages of a run, and its files but the one with times; nothing else is left anywhere."""
-    ended = outcome(*RUN, cwd=directory)
-    assert ended.returncode == 0, ended.stderr
+    ended = succeeded(*RUN, cwd=directory)
     assert {path.name for path in directory.iterdir()} == {"scene.toml", "out"}
     files = {path.name: path.read_bytes() for path in (directory / "out").iterdir()}
     assert {"result.h5", "summary.json"} <= files.keys()

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from command import outcome, rows
+from command import rows, succeeded
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -35,14 +35,12 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = directory / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
     options = ("-o", directory / "run", "--figures", "none", "--no-error")
-    ended = outcome("run", scene, *options, cwd=ROOT)
-    assert ended.returncode == 0, ended.stderr
+    succeeded("run", scene, *options, cwd=ROOT)
     return directory
 
 
 def at_points(place: Path, source: str, out: str, *arguments: object) -> list[dict[str, str]]:
-    ended = outcome("stress", place / source, "-o", place / out, *arguments, cwd=ROOT)
-    assert ended.returncode == 0, ended.stderr
+    succeeded("stress", place / source, "-o", place / out, *arguments, cwd=ROOT)
     return rows(place / out / "stress_history.csv")
 
 

@@ -5,7 +5,7 @@ from math import hypot
 from pathlib import Path
 
 import pytest
-from command import outcome
+from command import outcome, succeeded
 
 from contact_scene import SceneError
 from slipstick.uncertain_inputs import UncertainInput, read_inputs
@@ -49,8 +49,7 @@ def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) 
     coarse = "semi_analytical.cells=[32,32]", "fem_reference.elements_per_radius=6"
     changed = [word for one in coarse for word in ("--set", one)]
     command = ("run", "scene.toml", "-o", "out", "--solver", solver, "--inputs", INPUTS)
-    ended = outcome(*command, *changed, "--no-error", cwd=tmp_path)
-    assert ended.returncode == 0, ended.stderr
+    ended = succeeded(*command, *changed, "--no-error", cwd=tmp_path)
     found = json.loads((tmp_path / "out/inputs.json").read_text(encoding="utf-8"))
     assert [one["deviation"] for one in found["inputs"]] == [0.01, 0.54, 4.2]
     for name, powers in HERTZ.items():
@@ -70,8 +69,7 @@ def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) 
 def test_digits_follow_from_the_larger_uncertainty(tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     chosen = ("--inputs", "friction.coefficient=.1±.02", "--figures", "none")
-    ended = outcome("run", "scene.toml", "-o", "out", *chosen, cwd=tmp_path)
-    assert ended.returncode == 0, ended.stderr
+    ended = succeeded("run", "scene.toml", "-o", "out", *chosen, cwd=tmp_path)
     rows = {line.split("  ")[0].strip(): line.split() for line in ended.stdout.splitlines()}
     number = json.loads((tmp_path / "out/inputs.json").read_text())["numbers"]["tangential_shift_x"]
     assert number["by_inputs"] > number["numerical"] > 0
@@ -99,8 +97,7 @@ def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
     pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
     (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
     given = ("--inputs", "body.material.yield_strength=1±.1 GPa", "--solver", "radial")
-    ended = outcome("run", "scene.toml", "-o", "out", *given, "--figures", "none", cwd=tmp_path)
-    assert ended.returncode == 0, ended.stderr
+    ended = succeeded("run", "scene.toml", "-o", "out", *given, "--figures", "none", cwd=tmp_path)
     assert "the inputs change no number" in ended.stdout
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from command import outcome, signalled
+from command import signalled, succeeded
 
 from contact_scene.solver_errors import NotConverged
 from verification.cases.catalogue import choose, lost
@@ -41,8 +41,7 @@ pytestmark = pytest.mark.usefixtures("one_process")
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify")
-    ended = outcome("verify", "hertz_approach_control", "--output", "out/put", cwd=directory)
-    assert ended.returncode == 0, ended.stdout + ended.stderr
+    ended = succeeded("verify", "hertz_approach_control", "--output", "out/put", cwd=directory)
     assert "hertz_approach_control" in ended.stderr
     assert f"report: {Path('out/put') / PAGE}" in ended.stdout
     return directory / "out" / "put"
@@ -132,8 +131,7 @@ def report(directory: Path) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify") / "report"
-    whole = outcome("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
-    assert whole.returncode == 0, whole.stderr
+    whole = succeeded("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
     assert re.search(r"\(1 of 4, about \d+ s left\)", whole.stderr)
     return directory
 
@@ -152,8 +150,9 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert not any((tmp_path / name).exists() for name in FILES)
     assert report(tmp_path / EARLIER) == report(uninterrupted)
 
-    again = outcome("verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent)
-    assert again.returncode == 0, again.stderr
+    again = succeeded(
+        "verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent
+    )
     assert again.stderr.count("already there") == len(kept)
     assert records(tmp_path) | kept == records(tmp_path)
     assert report(tmp_path) == report(uninterrupted)
