@@ -142,20 +142,3 @@ def test_cluster_whose_workers_have_all_died_is_not_waited_for(
     reasons = [end.lost.reason for end in ends[1:] if end.lost is not None]
     assert len(reasons) == 2
     assert all(one.startswith(f"no worker is left: {worker} died, and none") for one in reasons)
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(900)
-def test_verification_on_a_cluster_gives_the_report_of_this_machine(
-    address: str, tmp_path: Path
-) -> None:
-    from slipstick.cli.commands.verify import judge_cases
-    from verification.cases.catalogue import choose
-    from verification.judging.case import Level
-
-    cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
-    here, *_ = judge_cases(cases, "QUICK", tmp_path / "here", 1, fresh=False)
-    there, *_ = judge_cases(
-        cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False
-    )
-    assert there == here
