@@ -53,6 +53,24 @@ class InThisProcess:
         pass
 
 
+CASE = Square(3.0)
+EARLIER = Number(value=9.0, process=1)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> CaseStore:
+    return CaseStore(tmp_path, Number)
+
+
+def end_of(
+    store: CaseStore, workers: InThisProcess | None = None, *, fresh: bool = False
+) -> CaseEnd:
+    """End of the case in this process, unless workers are given."""
+    workers = workers or InThisProcess()
+    (end,) = run_cases([CASE], store, workers, lambda end: None, fresh=fresh)
+    return end
+
+
 @pytest.mark.parametrize(
     ("damage", "problem"),
     [
@@ -66,50 +84,43 @@ class InThisProcess:
     ],
 )
 def test_file_that_is_not_the_record_is_named_and_computed_again(
-    damage: Callable[[bytes], bytes], problem: str, tmp_path: Path
+    damage: Callable[[bytes], bytes], problem: str, store: CaseStore
 ) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1))
-    path = store.path(case)
+    store.save(CASE, EARLIER)
+    path = store.path(CASE)
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(DamagedRecord, match=problem) as error:
-        store.load(case)
+        store.load(CASE)
     assert str(path) in str(error.value)
-    (end,) = run_cases([case], store, InThisProcess(), lambda end: None)
+    end = end_of(store)
     assert str(path) in end.damaged
     assert not end.stored
-    assert store.load(case) == end.record == Number(value=9.0, process=os.getpid())
+    assert store.load(CASE) == end.record == Number(value=9.0, process=os.getpid())
 
 
-def test_record_of_other_sources_is_not_taken(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1), b"other sources")
-    assert store.load(case) is None
-    store.save(case, Number(value=9.0, process=2))
-    assert len(list(tmp_path.iterdir())) == 2
-    assert store.load(case) == Number(value=9.0, process=2)
+def test_record_of_other_sources_is_not_taken(store: CaseStore) -> None:
+    store.save(CASE, EARLIER, b"other sources")
+    assert store.load(CASE) is None
+    store.save(CASE, EARLIER)
+    assert len(list(store.path(CASE).parent.iterdir())) == 2
+    assert store.load(CASE) == EARLIER
 
 
-def test_fresh_takes_nothing_from_the_store(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1))
-    (end,) = run_cases([case], store, InThisProcess(), lambda end: None, fresh=True)
-    assert not end.stored
-    assert store.load(case) == Number(value=9.0, process=os.getpid())
+def test_fresh_takes_nothing_from_the_store(store: CaseStore) -> None:
+    store.save(CASE, EARLIER)
+    assert not end_of(store, fresh=True).stored
+    assert store.load(CASE) == Number(value=9.0, process=os.getpid())
 
 
 @pytest.mark.parametrize("elsewhere", [False, True])
-def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_path: Path) -> None:
+def test_only_workers_elsewhere_must_have_the_same_sources(
+    elsewhere: bool, store: CaseStore
+) -> None:
     """A source that is edited during a run of hours does not stop it; nothing false is stored."""
-    store, case, pool = (
-        CaseStore(tmp_path, Number),
-        Square(3.0),
-        InThisProcess(elsewhere, b"edited"),
-    )
-    (end,) = run_cases([case], store, pool, lambda end: None)
+    end = end_of(store, InThisProcess(elsewhere, b"edited"))
     assert (end.lost is None) is not elsewhere
     assert (end.record is None) is elsewhere
-    assert store.load(case) is None
+    assert store.load(CASE) is None
 
 
 def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:

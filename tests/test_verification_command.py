@@ -1,5 +1,4 @@
-"""Tests of `slipstick verify` and `slipstick maintain report` from end to end, on one small
-case."""
+"""Tests of verifications: solves that are bad, given up or lost fail, and a killed one goes on."""
 
 import json
 import re
@@ -36,15 +35,6 @@ from verification.report.file_names import FILES, PAGE, RECORD
 from verification.report.files import EARLIER
 
 pytestmark = pytest.mark.usefixtures("one_process")
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    directory = tmp_path_factory.mktemp("verify")
-    ended = succeeded("verify", "hertz_approach_control", "--output", "out/put", cwd=directory)
-    assert "hertz_approach_control" in ended.stderr
-    assert f"report: {Path('out/put') / PAGE}" in ended.stdout
-    return directory / "out" / "put"
 
 
 # ---- verdicts
