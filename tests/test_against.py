@@ -145,24 +145,6 @@ def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) ->
     assert open_ended.of_table > whole.of_table
 
 
-def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> None:
-    actuator, shift, force = loop(place)
-    energies, slopes = [], []
-    for name, motion in (("actuator_shift [m]", actuator), ("shift [m]", shift)):
-        found = against(place, table(place / "loop.csv", **{name: motion, "T [N]": force}))
-        energies.append(value(found["energy per cycle"][0]))
-        slopes.append(float(found["slope"][0]))
-        assert float(found["slope"][2]) == pytest.approx(1.0, abs=1e-4)
-        assert found["slope"][4] == "100.0 %"
-    assert energies[0] == pytest.approx(energies[1], rel=1e-4)
-    assert 1 / slopes[0] - 1 / slopes[1] == pytest.approx(1 / 100, rel=1e-3)  # of the spring
-    smaller = table(place / "loop.csv", **{"shift [m]": shift, "T [N]": 0.9 * force})
-    both_ways = np.sum(force**2) + np.min(force) ** 2  # with both ends twice
-    gap = 0.1 * np.sqrt(both_ways / (len(force) + 1))
-    found = against(place, smaller)["force along the loop"]
-    assert float(found[3]) == pytest.approx(gap, rel=1e-3)
-
-
 @pytest.mark.parametrize(
     ("columns", "message"),
     [

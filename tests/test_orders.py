@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contact_errors.error_formula import build_stated_error
-from contact_scene.quantities.stated_error import StatedErrors
 from verification.cases.catalogue import choose
 from verification.judging.case import (
     Case,
@@ -26,7 +24,7 @@ from verification.judging.case import (
     Refinement,
     Required,
 )
-from verification.judging.judgement import error_of, judge_order, judge_quantity, judge_worst
+from verification.judging.judgement import judge_order, judge_quantity, judge_worst
 from verification.judging.outcome import Status, Verdict
 from verification.problems.problem import identity
 from verification.solver import Solver
@@ -143,17 +141,6 @@ def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -
     ]
     with pytest.raises(ValueError, match="needs an uncertainty > 0"):
         replace(quantity, reference=replace(quantity.reference, uncertainty=0.0))
-
-
-def test_a_stated_error_is_that_of_the_judged_step_and_component() -> None:
-    steps = tuple(
-        {"shift": build_stated_error({"cells": np.array(sizes)}, None)}
-        for sizes in ((1.0, 2.0), (3.0, 4.0))
-    )
-    places = [(0, 0), (1, 0), (0, 1), (1, 1), (0, -1)]
-    judged: list[Any] = [SimpleNamespace(scalar=("shift", *place)) for place in places]
-    found = [error_of(quantity, StatedErrors(steps, ())) for quantity in judged]
-    assert found == [1.0, 2.0, 3.0, 4.0, 3.0]
 
 
 @pytest.mark.parametrize(

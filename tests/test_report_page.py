@@ -68,21 +68,6 @@ def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_f
     assert places == sorted(places)
 
 
-def test_the_front_names_stated_errors_that_do_not_cover() -> None:
-    def stated(name: str, error: float) -> Verdict:
-        covered = error >= 0.001
-        return verdict(name, 1.001, 1.0).model_copy(
-            update={"stated_error": error, "covered": covered}
-        )
-
-    small, large = stated("radius", 1e-4), stated("approach", 2e-3)
-    header = render_page(report_of((judged(small, large),))).split("</header>")[0]
-    assert "Stated errors that do not cover" in header
-    assert f'<a href="{SHEETS}#one">one/radius [run]</a>: 1.00' in header
-    assert "one/approach" not in header
-    assert "do not cover" not in render_page(report_of((judged(large),)))
-
-
 def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:
     """Errors are relative to the scale of their verdict, here 1e9 and 1e-9."""
     found = [verdict("p", s * (1 + e), s) for s in (1e9, 1e-9) for e in (1e-6, 5e-13)]
@@ -193,18 +178,6 @@ def cases() -> tuple[CaseOutcome, ...]:
     )
     old = judged_at("old", {"radius": (1.009, 1.0)}, {})
     return soft, thin, old
-
-
-def test_a_row_has_the_tested_range_and_the_largest_error_in_it(
-    cases: tuple[CaseOutcome, ...],
-) -> None:
-    table = validity_table(report_of(cases))
-    assert table.rows == (
-        ("ν", "0.3", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
-        ("ν", "0.45", "1", "0.004", "thin/radius", "40 %", "thin/radius"),
-        ("µ", "0.05 to 0.1", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
-    )
-    assert "Validity" in render_page(report_of(cases))
 
 
 def test_errors_to_the_same_program_count_for_the_tolerance_only(

@@ -5,10 +5,10 @@ from math import hypot
 from pathlib import Path
 
 import pytest
-from command import outcome, succeeded
+from command import succeeded
 
 from contact_scene import SceneError
-from slipstick.uncertain_inputs import UncertainInput, read_inputs
+from slipstick.uncertain_inputs import read_inputs
 
 SCENE = """
 [indenter]
@@ -78,21 +78,6 @@ def test_digits_follow_from_the_larger_uncertainty(tmp_path: Path) -> None:
     assert len(text) < 7
 
 
-@pytest.mark.parametrize(
-    ("text", "found"),
-    [
-        ("a.b=1±.5 um", ("a.b", 1.0, 0.5, "um")),
-        (" loading[2].torque = -1e-3 +- 2e-4 N mm ", ("loading[2].torque", -1e-3, 2e-4, "N mm")),
-        ("friction.coefficient=.1+/-.01", ("friction.coefficient", 0.1, 0.01, "")),
-    ],
-)
-def test_inputs_are_read_as_they_are_written(text, found) -> None:
-    assert read_inputs(text) == (UncertainInput(*found),)
-    one = UncertainInput(*found)
-    number = one.override(1).partition("=")[2].strip('"').split(" ")[0]
-    assert float(number) == pytest.approx(found[1] + found[2], rel=1e-11)
-
-
 def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
     pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
     (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
@@ -105,22 +90,3 @@ def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
 def test_an_infinite_input_is_refused(text: str) -> None:
     with pytest.raises(SceneError, match="expected key=value±deviation"):
         read_inputs(text)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("friction.coeff=.1±.02", "--inputs friction.coeff=0.1: friction.coeff: unknown key"),
-        ("indenter.radius=1±2 mm", '--inputs indenter.radius="-1 mm": indenter.radius: got'),
-        ("loading[9].normal_force=1±.1 kN", "--inputs loading[9].normal_force="),
-    ],
-)
-def test_a_wrong_input_is_named_by_its_option(text: str, message: str, tmp_path: Path) -> None:
-    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
-    ended = outcome("run", "scene.toml", "-o", "out", "--inputs", text, cwd=tmp_path)
-    assert ended.returncode == 2
-    assert message in ended.stderr
-    assert "--set" not in ended.stderr
-    changed = ("--inputs", text, "--set", "friction.coefficient=-1")
-    both = outcome("run", "scene.toml", "-o", "out", *changed, cwd=tmp_path)
-    assert "--set friction.coefficient=-1: " in both.stderr
