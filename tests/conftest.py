@@ -68,7 +68,7 @@ LONGEST = (
     "test_stress_files",
     "test_examples",
     "test_cli_run",
-    "test_cli",
+    "test_exit_codes",
     "test_stress_on_disc",
     "test_workers_and_order",
     "test_fem_stress",

@@ -1,4 +1,4 @@
-"""Tests of the command line: messages, exit codes, imports, and files that must stay unchanged."""
+"""Tests of exit codes: a failed run ends with the code of its error, one message and no files."""
 
 import errno
 import os
@@ -10,7 +10,6 @@ import pytest
 from command import slipstick
 from small_result import small_result
 
-from contact_results.blas_threads import VARIABLES
 from contact_scene.solver_errors import (
     AccuracyOutOfReach,
     ContactAtWindowEdge,
@@ -26,7 +25,6 @@ from contact_scene.solver_errors import (
 )
 from fem_reference.mesh.gmsh_mesh import GmshMissing
 from semi_analytical.discretised import CellSolver
-from slipstick.cli import main
 
 SCENE = """
 title = "Ball on a flat"
@@ -74,8 +72,6 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
     return replace_by
 
 
-# ---- failures of a run ------------------------------------------------------------------------
-
 FAILURES = {
     2: (
         GrossSliding("tangential force exceeds the limit"),
@@ -118,16 +114,3 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert errors.count("error: ") == 1
     assert "Traceback" not in errors
     assert os.listdir(scene.parent) == [scene.name]
-
-
-@pytest.mark.parametrize(("asked", "used"), [(None, "1"), ("3", "3")])
-def test_commands_use_one_thread_unless_told(
-    asked: str | None, used: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in VARIABLES:
-        monkeypatch.delenv(name, raising=False)
-        if asked is not None:
-            monkeypatch.setenv(name, asked)
-    with pytest.raises(SystemExit):
-        main(["--version"])
-    assert [os.environ[name] for name in VARIABLES] == [used] * len(VARIABLES)
