@@ -3,7 +3,6 @@
 import os
 import re
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -11,7 +10,7 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
-from processes import has_ended
+from processes import begun, has_ended
 from study_cases import Endless, Killed, Loop, Number, Refusing, Square
 
 from verification.running.case_pool import (
@@ -21,7 +20,6 @@ from verification.running.case_pool import (
 )
 from verification.running.study import StudyCase
 
-ROOT = Path(__file__).resolve().parents[1]
 CASES = (
     Loop("semi-analytical", 40.0),
     Loop("fem-complementarity", 40.0),
@@ -49,16 +47,6 @@ def test_neither_the_number_of_workers_nor_the_order_changes_a_bit(tmp_path: Pat
         assert record.partition('"fields":"')[2][:64].encode() in alone[name]
 
 
-def python(program: str, *words: str) -> "subprocess.Popen[str]":
-    return subprocess.Popen(
-        [sys.executable, "-c", program, *words],
-        cwd=ROOT / "tests",
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, sys.path)])},
-        text=True,
-        stdout=subprocess.PIPE,
-    )
-
-
 ENDLESS = """
 import sys
 from pathlib import Path
@@ -73,7 +61,7 @@ if __name__ == "__main__":
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
 def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     told = tmp_path / "pid"
-    parent = python(ENDLESS, str(told), str(tmp_path / "cases"))
+    parent = begun(tmp_path, str(told), str(tmp_path / "cases"), program=ENDLESS)
     until = time.monotonic() + PATIENCE
     while not (told.exists() and told.read_text(encoding="ascii")):
         assert time.monotonic() < until
