@@ -180,6 +180,18 @@ def cases() -> tuple[CaseOutcome, ...]:
     return soft, thin, old
 
 
+def test_a_row_has_the_tested_range_and_the_largest_error_in_it(
+    cases: tuple[CaseOutcome, ...],
+) -> None:
+    table = validity_table(report_of(cases))
+    assert table.rows == (
+        ("ν", "0.3", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
+        ("ν", "0.45", "1", "0.004", "thin/radius", "40 %", "thin/radius"),
+        ("µ", "0.05 to 0.1", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
+    )
+    assert "Validity" in render_page(report_of(cases))
+
+
 def test_errors_to_the_same_program_count_for_the_tolerance_only(
     cases: tuple[CaseOutcome, ...],
 ) -> None:
