@@ -145,6 +145,15 @@ def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) ->
     assert open_ended.of_table > whole.of_table
 
 
+def test_the_gap_to_a_measured_force_is_a_mean_over_one_cycle(place: Path) -> None:
+    _, shift, force = loop(place)
+    smaller = table(place / "loop.csv", **{"shift [m]": shift, "T [N]": 0.9 * force})
+    both_ways = np.sum(force**2) + np.min(force) ** 2  # with both ends twice
+    gap = 0.1 * np.sqrt(both_ways / (len(force) + 1))
+    found = against(place, smaller)["force along the loop"]
+    assert float(found[3]) == pytest.approx(gap, rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("columns", "message"),
     [
