@@ -25,6 +25,13 @@ def outcome(*arguments: object, cwd: Path) -> CompletedProcess[str]:
     return CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
 
 
+def succeeded(*arguments: object, cwd: Path) -> CompletedProcess[str]:
+    """Outcome of a command that ends with exit code 0."""
+    ended = outcome(*arguments, cwd=cwd)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    return ended
+
+
 def rows(path: Path) -> list[dict[str, str]]:
     """The rows of a CSV file, by column."""
     with open(path, newline="", encoding="utf-8") as file:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,6 +64,33 @@ def ended(process: subprocess.Popen[str]) -> Ended:
 def run(directory: Path, *words: str, program: str = MAIN, threads: int = 1) -> Ended:
     """A command from its begin to its end."""
     return ended(begun(directory, *words, program=program, threads=threads))
+
+
+def imported_after(script: str, *words: object, cwd: Path) -> set[str]:
+    """Modules that a fresh process has imported after a script, with the words as its arguments."""
+    program = script + "\nimport sys\nprint('\\nimported', *sys.modules)"
+    ran = subprocess.run(
+        [sys.executable, "-c", program, *map(str, words)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(ran.stdout.rpartition("\nimported ")[2].split())
+
+
+def has_ended(process: int) -> bool:
+    """True if a process ends within ten seconds; one that nobody waits for has ended, too."""
+    until = time.monotonic() + 10
+    while time.monotonic() < until:
+        try:
+            state = Path(f"/proc/{process}/stat").read_text(encoding="ascii").rpartition(")")[2]
+        except (FileNotFoundError, ProcessLookupError):
+            return True
+        if state.split()[0] == "Z":
+            return True
+        time.sleep(0.05)
+    return False
 
 
 def results(directory: Path) -> dict[str, bytes]:

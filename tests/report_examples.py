@@ -142,3 +142,14 @@ def report_by(*cases: CaseOutcome, level: str = "quick", **made: object) -> Repo
     report = report_of(cases)
     provenance = report.provenance.model_copy(update={"commit": 40 * "a", **made})
     return report.model_copy(update={"level": level, "provenance": provenance})
+
+
+def a_case(name: str, error: float = 0.002) -> CaseOutcome:
+    """A case of two quantities, of which one has this error; 0.01 is allowed."""
+    values = {"approach": (1.0 + error, 1.0), "radius": (2.0, 2.0)}
+    return case(name, values, run_record(32, None), drawn=False)
+
+
+def three_cases() -> Report:
+    """A report of three cases."""
+    return report_of(tuple(a_case(name) for name in ("one", "three", "two")))

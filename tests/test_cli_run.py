@@ -11,10 +11,10 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from command import outcome
+from command import outcome, succeeded
 from conftest import leave_figures_undrawn
 from scene_texts import COARSE, STEEL_BALL_PRESSED
-from synthetic_result import synthetic_result
+from small_result import small_result
 
 from contact_results.directory.file_names import SUMMARY
 from contact_scene.quantities.summary import summary_schema
@@ -172,7 +172,7 @@ def test_a_cycle_at_constant_shift_has_numbers_and_no_ratio_over_its_range(
 ) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(alike(AT_CONSTANT_SHIFT[name]), encoding="utf-8")
-    assert outcome("plan", scene, "--solver", solver, cwd=ROOT).returncode == 0
+    succeeded("plan", scene, "--solver", solver, cwd=ROOT)
     ended = run(scene, "--solver", solver, "--figures", "none")
     assert ended.returncode == 0, ended.stderr
     end: Any = summary(scene)["steps"][-1]
@@ -182,8 +182,7 @@ def test_a_cycle_at_constant_shift_has_numbers_and_no_ratio_over_its_range(
     ratios = "energy_ratio", "energy_friction", "gross_slip_share"
     assert [end[ratio] for ratio in ratios] == [None] * 3
     assert end["limit_share"] == pytest.approx(end["force_amplitude"] / (0.4 * end["normal_force"]))
-    exported = outcome("export", tmp_path / "out", "-o", tmp_path / "surface", cwd=ROOT)
-    assert exported.returncode == 0, exported.stderr
+    succeeded("export", tmp_path / "out", "-o", tmp_path / "surface", cwd=ROOT)
 
 
 PARTS = {
@@ -221,8 +220,7 @@ def test_a_part_that_cannot_be_computed_is_named_and_the_rest_is_written(
         ("stress", out, "-o", tmp_path / "stress", "--figures", "none"),
         ("against", profile, out),
     ):
-        read = outcome(*words, cwd=ROOT)
-        assert read.returncode == 0, read.stderr
+        succeeded(*words, cwd=ROOT)
 
 
 def test_a_saved_result_names_what_could_not_be_computed(
@@ -230,5 +228,5 @@ def test_a_saved_result_names_what_could_not_be_computed(
 ) -> None:
     monkeypatch.setattr(PARTS["the page"], lambda *_: 1 / 0)
     with pytest.warns(UserWarning, match="the page could not be computed"):
-        save(synthetic_result(), tmp_path / "out")
+        save(small_result(), tmp_path / "out")
     assert load(tmp_path / "out").summary.warnings[-1].startswith("the page could not")

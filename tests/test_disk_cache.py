@@ -73,11 +73,9 @@ def in_place_of(path: Path, make: Callable[[Path], object]) -> None:
 
 DAMAGES: dict[str, tuple[Callable[[Path], object], str]] = {
     "a flipped bit": (lambda p: flipped(p, -5), "is damaged"),
-    "a flipped bit of the checksum": (lambda p: flipped(p, 100), "is damaged"),
     "cut off": (lambda p: os.truncate(p, p.stat().st_size - 8), "is damaged"),
     "grown": (grown_to_zeros, "is damaged"),
     "empty": (lambda p: os.truncate(p, 0), "is no array of this version"),
-    "foreign": (lambda p: p.write_bytes(b"something else"), "is no array of this version"),
     "of another version": (
         lambda p: p.write_bytes(p.read_bytes().replace(b"format 1", b"format 0")),
         "is no array of this version",

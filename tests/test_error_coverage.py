@@ -70,48 +70,37 @@ def test_the_interval_is_that_of_clopper_and_pearson() -> None:
     assert Share(0, 10).interval == pytest.approx((0.0, 0.30850), abs=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("one", "covered", "tight", "wide", "apart", "false_marks", "undecided"),
-    [
-        (row(1e-3, 1.1e-3), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(1e-3, 1.1e-2), (1, 1), (0, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(1e-3, 3.1e-2), (1, 1), (0, 1), (1, 1), (0, 0), (0, 1), 0),
-        (row(0.0, 5e-9, uncertain=0.0), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(-1e-3, 0.9e-3), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(1e-3, 1e-3 - 1e-10), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(1e-3, 1e-3, uncertain=2e-4), (0, 0), (0, 0), (0, 0), (0, 0), (0, 0), 1),
-        (row(1e-3, 1e-4, uncertain=2e-4), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED), (0, 0), (0, 0), (0, 0), (1, 1), (1, 1), 0),
-        (row(1e-3, 2e-2, ErrorStatus.NOT_CONVERGED), (0, 0), (0, 0), (0, 0), (1, 1), (0, 1), 0),
-        (row(1e-3, 0.0, ErrorStatus.EXACT), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
-        (
-            row(0.0, 0.0, ErrorStatus.EXACT, uncertain=0.0),
-            (1, 1),
-            (1, 1),
-            (0, 1),
-            (0, 0),
-            (0, 1),
-            0,
-        ),
-    ],
-    ids=[
-        *("covered", "ten times too large", "thirty times too large"),
-        *("below the eighth digit", "missed"),
-        *("covered up to the reference", "undecided", "missed in any case"),
-        *("falsely marked", "rightly marked", "wrongly exact", "exact"),
-    ],
-)
-def test_each_number_is_counted_once(
-    one: Row,
-    covered: tuple[int, int],
-    tight: tuple[int, int],
-    wide: tuple[int, int],
-    apart: tuple[int, int],
-    false_marks: tuple[int, int],
-    undecided: int,
-) -> None:
-    shares = (Share(*counts) for counts in (covered, tight, wide, apart, false_marks))
-    assert coverage([one]) == Coverage(APPROACH, *shares, undecided, 0)
+MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
+JUDGED = {"covered", "tight", "wide", "false_marks"}
+# A number, the shares that it belongs to, and those in which it counts.
+COUNTED: dict[str, tuple[Row, set[str], set[str]]] = {
+    "covered": (row(1e-3, 1.1e-3), {"covered", "tight"}, JUDGED),
+    "ten times too large": (row(1e-3, 1.1e-2), {"covered"}, JUDGED),
+    "thirty times too large": (row(1e-3, 3.1e-2), {"covered", "wide"}, JUDGED),
+    "below the eighth digit": (row(0.0, 5e-9, uncertain=0.0), {"covered", "tight"}, JUDGED),
+    "missed": (row(-1e-3, 0.9e-3), {"tight"}, JUDGED),
+    "covered up to the reference": (row(1e-3, 1e-3 - 1e-10), {"covered", "tight"}, JUDGED),
+    "undecided": (row(1e-3, 1e-3, uncertain=2e-4), {"undecided"}, {"undecided"}),
+    "missed in any case": (row(1e-3, 1e-4, uncertain=2e-4), {"tight"}, JUDGED),
+    "falsely marked": (MARKED, {"apart", "false_marks"}, {"apart", "false_marks"}),
+    "rightly marked": (
+        row(1e-3, 2e-2, ErrorStatus.NOT_CONVERGED),
+        {"apart"},
+        {"apart", "false_marks"},
+    ),
+    "wrongly exact": (row(1e-3, 0.0, ErrorStatus.EXACT), {"tight"}, JUDGED),
+    "exact": (row(0.0, 0.0, ErrorStatus.EXACT, uncertain=0.0), {"covered", "tight"}, JUDGED),
+}
+
+
+@pytest.mark.parametrize("name", COUNTED)
+def test_each_number_is_counted_once(name: str) -> None:
+    one, inside, counted = COUNTED[name]
+    shares = (
+        Share(int(share in inside), int(share in counted))
+        for share in ("covered", "tight", "wide", "apart", "false_marks")
+    )
+    assert coverage([one]) == Coverage(APPROACH, *shares, int("undecided" in inside), 0)
 
 
 def test_numbers_with_a_reference_are_counted_apart() -> None:
@@ -126,9 +115,6 @@ def test_numbers_with_a_reference_are_counted_apart() -> None:
     (apart,) = (one for one in statements if one.claim.startswith("numbers by coarse solves"))
     assert apart.about.counters["numbers"] == 100
     assert apart.about.measures["covered"] == 0
-
-
-MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
 
 
 def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, CaseRecord]:

@@ -1,7 +1,5 @@
-"""Tests of `import slipstick`: public names, cost of the import, and behaviour."""
+"""Tests of `import slipstick`: public names, solved and stored results, and changed scenes."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +17,6 @@ from contact_scene import HeightMap, SceneError
 from contact_scene.quantities.field_metadata import reported
 from contact_scene.quantities.increment import SCALARS
 
-ROOT = Path(__file__).resolve().parents[1]
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SCENE = slipstick.Scene(
     title="ball",
@@ -49,36 +46,20 @@ def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
     assert getattr(slipstick, name).__doc__
 
 
-def imported_after(script: str) -> set[str]:
-    """Top-level modules of a fresh process that has run a script."""
-    tell = "; import sys; print(*{name.partition('.')[0] for name in sys.modules})"
-    ran = subprocess.run(
-        [sys.executable, "-c", script + tell], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    return set(ran.stdout.split())
-
-
-def test_import_brings_in_nothing() -> None:
-    heavy = {"numpy", "pydantic", "scipy", "h5py", "matplotlib", "typer", "rich"}
-    ours = {"contact_scene", "contact_solver", "contact_results", "semi_analytical"}
-    ours |= {"fem_reference", "verification"}
-    assert not imported_after("import slipstick") & (heavy | ours)
-    assert not imported_after("from slipstick import Scene, load_scene") & {
-        "scipy",
-        "h5py",
-        *ours - {"contact_scene"},
-    }
+def solved_and_loaded(folder: Path, scene: slipstick.Scene, solver: SolverName) -> Any:
+    """Result of a scene, and the run that is read back; the files of the scene are removed."""
+    result: Any = slipstick.solve(scene, solver.value, COARSE[solver])
+    slipstick.save(result, folder / "out", figures="none")
+    for path in folder.glob("*.*"):
+        path.unlink()
+    return result, slipstick.load(folder / "out")
 
 
 @pytest.mark.parametrize("solver", SHEARED)
 def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path) -> None:
-    """The same bits as the solver's own call, and back from the disk with units and places."""
-    result: Any = slipstick.solve(SCENE, solver.value, COARSE[solver])
-    slipstick.save(result, tmp_path / "out", figures="none")
-    run = slipstick.load(tmp_path / "out")
+    """The same bits from the disk, with units and places."""
+    result, run = solved_and_loaded(tmp_path, SCENE, solver)
     assert run.scene == SCENE
-    assert run.summary.solver == result.solver
-    assert [step.approach for step in run.summary.steps] == [end.approach for end in result.steps]
     axes = surface_of(result).axes
     assert set(run.coordinates) == set(axes)
     for name, places in axes.items():
@@ -90,10 +71,8 @@ def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path)
         mark = (SCALARS | reported(type(result.steps[0]))).get(name)
         assert mark is None or run.increments[name].unit == mark.unit
         assert run.increments[name].meaning
-    assert run.last_cycle["slip_amplitude"].unit == "m"
-    cycle = fretting_cycles(result)[-1]
-    assert np.array_equal(run.last_cycle["slip_amplitude"].array, cycle.slip_amplitude)
-    assert run.summary.steps[-1].slip_amplitude == cycle.largest_slip
+    amplitude = fretting_cycles(result)[-1].slip_amplitude
+    assert np.array_equal(run.last_cycle["slip_amplitude"].array, amplitude)
 
 
 @pytest.mark.parametrize("solver", SolverName)
@@ -163,10 +142,7 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
             slipstick.LoadStep(tangential_force=(0.2, 0.0)),
         ),
     )
-    result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
-    slipstick.save(result, tmp_path / "out", figures="none")
-    (tmp_path / "ball.npy").unlink()
-    run = slipstick.load(tmp_path / "out")
+    result, run = solved_and_loaded(tmp_path, scene, SolverName.SEMI_ANALYTICAL)
     assert run.scene == scene
     assert run.scene.indenter.initial_gap(0.0, 0.0) == scene.indenter.initial_gap(0.0, 0.0)
     expected, found = state_of_result(result, None), state_of_run(tmp_path / "out", None)
@@ -183,11 +159,11 @@ def test_a_stored_profile_is_that_of_the_scene(tmp_path: Path) -> None:
         file=str(tmp_path / "tip.csv"), radius_unit="um", height_unit="nm", material=STEEL
     )
     scene = SCENE.model_copy(update={"indenter": indenter, "loading": SCENE.loading[:1]})
-    slipstick.save(slipstick.solve(scene, "radial"), tmp_path / "out", figures="none")
-    (tmp_path / "tip.csv").unlink()
-    run = slipstick.load(tmp_path / "out")
+    _, run = solved_and_loaded(tmp_path, scene, SolverName.RADIAL)
     assert run.scene == scene
-    ball = slipstick.solve(scene.model_copy(update={"indenter": SCENE.indenter}), "radial").steps[0]
+    ball = slipstick.solve(
+        scene.model_copy(update={"indenter": SCENE.indenter}), "radial", COARSE[SolverName.RADIAL]
+    ).steps[0]
     assert run.summary.steps[0].approach == pytest.approx(ball.approach, rel=1e-9)
 
 

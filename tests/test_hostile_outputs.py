@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from command import outcome
+from command import outcome, succeeded
 from report_examples import case, report_by, run_record
 from scene_texts import STEEL_ON_STEEL
 
@@ -51,9 +51,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A scene, a run of it, a challenge that is answered, and a report."""
     folder = tmp_path_factory.mktemp("made")
     (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
-    assert outcome("run", "scene.toml", *QUICK, "-o", "run", cwd=folder).returncode == 0
+    succeeded("run", "scene.toml", *QUICK, "-o", "run", cwd=folder)
     export = ("challenge", "export", "hertz_point", "-o", "answered")
-    assert outcome(*export, cwd=folder).returncode == 0
+    succeeded(*export, cwd=folder)
     answers = folder / "answered"
     (answers / "solver.toml").write_text('[solver]\nname = "theirs"\n', encoding="utf-8")
     with open(answers / "levels.csv", "a", encoding="utf-8") as levels:

@@ -7,7 +7,6 @@ its own row and earlier ones only. The modules and folders of a package have no 
 
 import ast
 import re
-import subprocess
 import sys
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
@@ -175,21 +174,6 @@ def test_what_takes_as_long_as_a_contact_is_imported_where_it_is_called() -> Non
         found = {node.module for node in top if isinstance(node, ast.ImportFrom)}
         found |= {name.name for node in top if isinstance(node, ast.Import) for name in node.names}
         assert not found & slow, path
-
-
-def test_results_bring_in_no_solver_by_themselves() -> None:
-    """Whoever has the results of one solver need not import the other."""
-    ours = sorted(name for name in modules(ROOT) if within(name, "contact_results"))
-    script = f"""
-import importlib, sys
-for name in {ours}:
-    importlib.import_module(name)
-solvers = {{"contact_solver", "semi_analytical", "fem_reference", "radial"}}
-print(*{{*solvers, "verification"}} & set(sys.modules))"""
-    ran = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    assert ran.stdout.split() == []
 
 
 PLANTED = {

@@ -32,12 +32,6 @@ def kept(name: str) -> StudyRecord:
     return KEPT[name]
 
 
-def measured(study: str, claim: str) -> str:
-    """What a kept statement says that it measured."""
-    (told,) = (s for s in kept(study).conclusion.statements if claim in s.claim)
-    return told.measured
-
-
 def ended(cell: StabilityCell) -> CellRecord:
     """As it should."""
     end = CellRecord(verdict=Verdict.CONVERGED, tolerance=1e-8, residual=1e-9, increments=1)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 from command import outcome
-from test_size_bombs import slipstick
+from processes import run
 
 import radial
-from contact_scene import machine, read_scene_file
+from contact_scene import SceneFile, machine, read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from radial.memory import estimated_bytes as radial_estimated_bytes
 from semi_analytical import discretise, plan
@@ -105,21 +105,24 @@ def marks(name: str) -> list[pytest.MarkDecorator]:
     return [pytest.mark.slow] * (name in DEAR)
 
 
+def peak(text: str, folder: Path, *options: str) -> tuple[SceneFile, float]:
+    """The scene, and the largest memory [bytes] of a run: solves, coarse solves, files, figures."""
+    (folder / "scene.toml").write_text(text, encoding="utf-8")
+    ended = run(folder, "run", "scene.toml", "-o", "out", *options)
+    assert ended.code == 0, ended.said
+    return read_scene_file(folder / "scene.toml"), ended.memory * 2**20
+
+
 @pytest.mark.parametrize(
     "text",
     [pytest.param(text, id=name, marks=marks(name)) for name, text in (SCENES | DEAR).items()],
 )
 def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
-    """Solving, coarse solves, files and figures, in a process of its own."""
-    path = tmp_path / "scene.toml"
-    path.write_text(text, encoding="utf-8")
-    contents = read_scene_file(path)
-    grid = discretise(contents.scene, contents.semi_analytical)
+    contents, memory = peak(text, tmp_path)
     fineness = contents.semi_analytical
     decided = plan(contents.scene, fineness.path_accuracy, fineness.edge)
-    ended = slipstick("run", path, "-o", tmp_path / "out")
-    assert ended.code == 0, ended.said
-    assert estimated_bytes(grid, decided) == pytest.approx(ended.memory, rel=WITHIN)
+    grid = discretise(contents.scene, fineness)
+    assert estimated_bytes(grid, decided) == pytest.approx(memory, rel=WITHIN)
 
 
 def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path) -> None:
@@ -151,7 +154,6 @@ increments = 2
 """
 TURN = "[[loading]]\ntangential_force = [0, 60]\nincrements = 2"
 PUSH = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
-slow = pytest.mark.slow
 
 
 def radial_scene(
@@ -161,36 +163,33 @@ def radial_scene(
     return f"{pressed}{push}\n"
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
+RADIAL_SCENES = {"pressed": radial_scene(1e-4)}
+RADIAL_DEAR = {
+    "rubbed": radial_scene(1e-4, friction=FRICTION),
+    "thin, pressed": radial_scene(1e-5),
+    "thin, rubbed": radial_scene(1e-5, friction=FRICTION),
+    "film, pressed": radial_scene(1e-6),
+    "film, rubbed": radial_scene(3e-6, friction=FRICTION),
+    "pushed": radial_scene(1e-4, friction=FRICTION, push=PUSH),
+    "thin, pushed": radial_scene(6e-6, friction=FRICTION, push=PUSH),
+    "turned": radial_scene(1e-4, friction=FRICTION, push=f"{PUSH}\n{TURN}"),
+    "soft": radial_scene(3e-4, 210e3),
+    "stiff": radial_scene(1e-5, 210e15),
+}
+
+
 @pytest.mark.parametrize(
     "text",
     [
-        pytest.param(radial_scene(1e-4), id="pressed"),
-        pytest.param(radial_scene(1e-4, friction=FRICTION), id="rubbed", marks=slow),
-        pytest.param(radial_scene(1e-5), id="thin, pressed", marks=slow),
-        pytest.param(radial_scene(1e-5, friction=FRICTION), id="thin, rubbed", marks=slow),
-        pytest.param(radial_scene(1e-6), id="film, pressed", marks=slow),
-        pytest.param(radial_scene(3e-6, friction=FRICTION), id="film, rubbed", marks=slow),
-        pytest.param(radial_scene(1e-4, friction=FRICTION, push=PUSH), id="pushed", marks=slow),
-        pytest.param(
-            radial_scene(6e-6, friction=FRICTION, push=PUSH), id="thin, pushed", marks=slow
-        ),
-        pytest.param(
-            radial_scene(1e-4, friction=FRICTION, push=f"{PUSH}\n{TURN}"), id="turned", marks=slow
-        ),
-        pytest.param(radial_scene(3e-4, 210e3), id="soft", marks=slow),
-        pytest.param(radial_scene(1e-5, 210e15), id="stiff", marks=slow),
+        pytest.param(text, id=name, marks=[pytest.mark.slow] * (name in RADIAL_DEAR))
+        for name, text in (RADIAL_SCENES | RADIAL_DEAR).items()
     ],
 )
 def test_radial_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
-    """Solving, the solve beside it, files and figures, in a process of its own."""
-    path = tmp_path / "scene.toml"
-    path.write_text(text, encoding="utf-8")
-    described = read_scene_file(path).scene
-    ended = slipstick("run", path, "-o", tmp_path / "out", "--solver", "radial")
-    assert ended.code == 0, ended.said
+    contents, memory = peak(text, tmp_path, "--solver", "radial")
+    described = contents.scene
     needed = radial_estimated_bytes(described, radial.plan(described))
-    assert needed == pytest.approx(ended.memory, rel=WITHIN)
+    assert needed == pytest.approx(memory, rel=WITHIN)
 
 
 def test_what_does_not_fit_is_refused_before_it_is_begun(

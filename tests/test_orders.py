@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contact_errors.error_formula import build_stated_error
-from contact_scene.quantities.stated_error import StatedErrors
 from verification.cases.catalogue import choose
 from verification.judging.case import (
     Case,
@@ -26,7 +24,7 @@ from verification.judging.case import (
     Refinement,
     Required,
 )
-from verification.judging.judgement import error_of, judge_order, judge_quantity, judge_worst
+from verification.judging.judgement import judge_order, judge_quantity, judge_worst
 from verification.judging.outcome import Status, Verdict
 from verification.problems.problem import identity
 from verification.solver import Solver
@@ -145,17 +143,6 @@ def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -
         replace(quantity, reference=replace(quantity.reference, uncertainty=0.0))
 
 
-def test_a_stated_error_is_that_of_the_judged_step_and_component() -> None:
-    steps = tuple(
-        {"shift": build_stated_error({"cells": np.array(sizes)}, None)}
-        for sizes in ((1.0, 2.0), (3.0, 4.0))
-    )
-    places = [(0, 0), (1, 0), (0, 1), (1, 1), (0, -1)]
-    judged: list[Any] = [SimpleNamespace(scalar=("shift", *place)) for place in places]
-    found = [error_of(quantity, StatedErrors(steps, ())) for quantity in judged]
-    assert found == [1.0, 2.0, 3.0, 4.0, 3.0]
-
-
 @pytest.mark.parametrize(
     ("tight", "loose", "worst"),
     [(1e-3, 5e-3, "tight"), (1e-5, 5e-3, "loose"), (1e-5, nan, "loose")],
@@ -176,11 +163,11 @@ HALVED = 0.25 * 2.0 ** -np.arange(6)
 LIMIT = 3.0
 
 
-def judged_change(errors, expected, not_yet=None):
+def judged_change(errors, expected, not_yet=None, sizes=HALVED, apart=1):
     """The verdict on levels with these errors, the limit unknown to the judge."""
     results = {
         f"level {n}": SimpleNamespace(size=size, value=LIMIT + error)
-        for n, (size, error) in enumerate(zip(HALVED, errors, strict=True))
+        for n, (size, error) in enumerate(zip(sizes, errors, strict=True))
     }
     order = Order(
         "order",
@@ -193,7 +180,7 @@ def judged_change(errors, expected, not_yet=None):
         not_yet,
         refined=Refinement.INCREMENTS,
         size=lambda result: result.size,
-        apart=1,
+        apart=apart,
     )
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     case = Case("planted", "planted", "", runs, (), orders=(order,))
@@ -210,24 +197,7 @@ def test_planted_order_passes_and_another_fails(order):
 
 def test_changes_over_two_levels_tell_the_same_order():
     sizes = 0.25 * 2.0 ** (-np.arange(9) / 2)
-    results = {
-        f"level {n}": SimpleNamespace(size=size, value=LIMIT + 0.1 * size**1.5)
-        for n, size in enumerate(sizes)
-    }
-    runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
-    order = Order(
-        "order",
-        Followed.APPROACH,
-        "a planted value",
-        tuple(results),
-        lambda one, other: abs(one.value - other.value),
-        1.5,
-        "planted",
-        refined=Refinement.INCREMENTS,
-        size=lambda result: result.size,
-        apart=2,
-    )
-    verdict = judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
+    verdict = judged_change(0.1 * sizes**1.5, 1.5, sizes=sizes, apart=2)
     assert verdict.value == pytest.approx(1.5, abs=1e-6)
     assert verdict.order.sizes == pytest.approx(sizes[:-2])
     assert "7 changes" in verdict.because

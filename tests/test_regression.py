@@ -80,15 +80,6 @@ def compare(now: CaseOutcome, was: CaseOutcome) -> CaseOutcome:
     return compared(report_by(now), baselines_of(report_by(was), REASON)).cases[0]
 
 
-def shifted(case: CaseOutcome, name: str, part: float, *, of: str = "value") -> CaseOutcome:
-    """A quantity moved away from its reference by a part of itself or of what is allowed."""
-    verdict = find(case, name)
-    assert verdict.value is not None
-    size = abs(verdict.value) if of == "value" else verdict.allowed * verdict.scale
-    away = 1 if verdict.value >= verdict.reference else -1
-    return with_value(case, name, verdict.value + away * part * size)
-
-
 def posed(case: CaseOutcome, name: str, part: float | None, **changes: object) -> CaseOutcome:
     """The case with an error of this part of what is allowed, and judged otherwise."""
     if part is not None:
@@ -186,14 +177,6 @@ def test_what_changes_and_what_it_ends_with(
     assert remark in change.remark
 
 
-def test_wider_tolerance_does_not_make_a_move_smaller(healthy: CaseOutcome) -> None:
-    moved = shifted(healthy, "approach", 0.5, of="U")
-    wide = with_verdict(moved, "approach", allowed=100 * find(healthy, "approach").allowed)
-    change = find(compare(wide, healthy), "approach").regression
-    assert change is not None
-    assert change.moved == pytest.approx(0.5)
-
-
 @pytest.mark.parametrize("name", COUNTERS)
 @pytest.mark.parametrize(
     ("now", "kind"),
@@ -256,13 +239,10 @@ def test_levels_are_recorded_side_by_side(healthy: CaseOutcome, tmp_path: Path) 
 
 DAMAGE: dict[str, Callable[[str], str]] = {
     "truncated": lambda text: text[: len(text) // 2],
-    "other level": lambda text: text.replace('"quick"', '"quickest"'),
     "not finite": lambda text: re.sub(r'"allowed": [^,]*', '"allowed": NaN', text),
-    "less than no work": lambda text: re.sub(r'"iterations": \d+', '"iterations": -1', text),
     "work beyond doubles": lambda text: re.sub(
         r'"iterations": \d+', f'"iterations": {10**400}', text
     ),
-    "words for numbers": lambda text: re.sub(r'"value": [^,]*', '"value": "small"', text),
 }
 
 

@@ -2,20 +2,26 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
 from html import escape
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_errors, synthetic_result
+from matplotlib.figure import Figure
+from small_result import small_errors, small_result
 
 from contact_results.directory.file_names import PAGE, SUMMARY
-from contact_results.directory.timing import Stopwatch, write_timing
-from contact_results.key_numbers import key_numbers
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
+from contact_results.figures.run_page import write_page
+from contact_results.figures.style import figure_style
+from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
+from contact_results.result_report import ResultReport
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import (
@@ -29,8 +35,8 @@ ROOT = Path(__file__).resolve().parents[1]
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
-    result, directory = synthetic_result(), tmp_path_factory.mktemp("written")
-    write_result(result, directory, figures="all", errors=synthetic_errors(result))
+    result, directory = small_result(), tmp_path_factory.mktemp("written")
+    write_result(result, directory, figures="all", errors=small_errors(result))
     return result, directory
 
 
@@ -38,10 +44,10 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
     """In a fresh process with other hash seed, locale and matplotlibrc, too."""
     script = (
         "import sys; from pathlib import Path\n"
-        "from synthetic_result import synthetic_errors, synthetic_result\n"
+        "from small_result import small_errors, small_result\n"
         "from contact_results.result_files import write_result\n"
-        "result = synthetic_result()\n"
-        "errors = synthetic_errors(result)\n"
+        "result = small_result()\n"
+        "errors = small_errors(result)\n"
         "write_result(result, Path(sys.argv[1]), figures='all', errors=errors)"
     )
     (tmp_path / "matplotlibrc").write_text(
@@ -63,7 +69,7 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
 def test_a_title_of_any_characters_is_drawn_without_a_warning(
     title: str, tmp_path: Path, recwarn: pytest.WarningsRecorder
 ) -> None:
-    result = synthetic_result()
+    result = small_result()
     named = replace(result, scene=result.scene.model_copy(update={"title": title}))
     assert not write_result(named, tmp_path).causes
     assert (tmp_path / PAGE).read_text(encoding="utf-8").count(escape(title)) >= 2
@@ -76,10 +82,8 @@ def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path])
     result, directory = written
     text = (directory / SUMMARY).read_text(encoding="utf-8")
     jsonschema.validate(json.loads(text), summary_schema())
-    summary, errors = load_summary(text), synthetic_errors(result).steps
+    summary, errors = load_summary(text), small_errors(result).steps
     assert tuple(step.errors for step in summary.steps) == errors
-    page = (directory / PAGE).read_text(encoding="utf-8")
-    assert all(shown in page for _, shown in key_numbers(result.steps, errors[-1]))
     assert len(summary.steps) == len(result.scene.loading)
     for step, end in zip(summary.steps, result.steps, strict=True):
         within = [i for i in result.increments if i.step == end.step]
@@ -89,14 +93,30 @@ def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path])
             assert np.array_equal(getattr(step, name), expected), name
 
 
-def test_timing_counts_the_work_of_all_increments_of_a_step(tmp_path: Path) -> None:
-    result = synthetic_result()
-    write_timing(Stopwatch(), tmp_path, result.increments)
-    record = json.loads((tmp_path / "timing.json").read_text(encoding="utf-8"))
-    steps = record["counters"]
-    assert 2e7 < record["peak_memory_bytes"] < 1e11  # an interpreter with numpy takes more
-    numbers = [end.increments_in_step for end in result.steps]
-    assert [step["increments"] for step in steps] == numbers
-    assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in numbers]
-    assert [step["convolutions"] for step in steps] == [CONVOLUTIONS * n for n in numbers]
-    assert [step["factorizations"] for step in steps] == [None] * len(numbers)
+# ---- page
+
+
+@pytest.mark.parametrize("error", [3.2e-5, 4e-13, 4e-16])
+def test_an_error_however_small_does_not_read_as_zero(error: float) -> None:
+    text = number_text(0.3177303649, Uncertainty(error, True), 1.0)
+    assert float(text.split(" ± ")[1]) == pytest.approx(error, rel=0.1, abs=0.0)
+
+
+@pytest.mark.parametrize("value", [0.0, -4e-12, 3e-12])
+@pytest.mark.parametrize(("error", "text"), [(7.5e-4, "0 ± 0.00075"), (7.5e-10, "0 ± 7.5e-10")])
+def test_what_its_error_rounds_away_is_zero(value: float, error: float, text: str) -> None:
+    assert number_text(value, Uncertainty(error, True), 1.0) == text
+
+
+@pytest.mark.parametrize("columns", [2, 3])
+def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, tmp_path) -> None:
+    result: Any = small_result()
+    with figure_style():
+        figure = Figure(figsize=(columns * PLACE[0], 2 * PLACE[1] + TITLE))
+        figure.savefig(tmp_path / "overview.png", dpi=DOTS_PER_INCH)
+    write_page(ResultReport.of(result), tmp_path)
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert re.findall(r'aria-label="panel (\d)', page) == [*"12345"[: 2 * columns - 1]]
+    across = re.findall(r"background-position:(\d+)%", page)
+    assert across == [f"{100 * n // (columns - 1)}" for n in (*range(columns), *range(columns - 1))]
+    assert page.count("data:image") == 1

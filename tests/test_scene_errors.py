@@ -55,28 +55,6 @@ def changed(*changes: tuple[str, str]) -> str:
     return text
 
 
-def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
-    text = changed(
-        ("title", "titel"),
-        ("sphere", "spere"),
-        ("18 mm", "18 s"),
-        ("420 GPa", "-420 GPa"),
-        ("coefficient = 0.1", "coefficient = 0.01"),
-        ("18\n", "18\n[[loading]]\napproach = nan\n"),
-        ("256, 256", "256, 1"),
-    )
-    keys = [problem.key for problem in problems(tmp_path, text)]
-    assert keys == [
-        "titel",
-        "indenter.shape",
-        "indenter.radius",
-        "indenter.material.young_modulus",
-        "loading[2].tangential_force",
-        "loading[3].approach",
-        "semi_analytical.cells[2]",
-    ]
-
-
 @pytest.mark.parametrize(
     ("contents", "line", "words"),
     [

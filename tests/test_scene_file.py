@@ -10,7 +10,6 @@ from strategies import Document, as_toml, documents
 
 from contact_scene import (
     RIGID,
-    CoulombFriction,
     FiniteElementDiscretisation,
     FrictionMap,
     HeightMap,
@@ -24,45 +23,6 @@ from contact_scene import (
 )
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
-TABLE = """
-[fem_reference]
-elements_per_radius = 64
-contact_radius = "0.4 mm"
-box = 200
-mesher = "gmsh"
-harmonics = 12
-penalty = 30.0
-augmentations = 2
-tolerance = 1e-9
-"""
-
-
-def file_with(tmp_path, table):
-    path = tmp_path / "scene.toml"
-    path.write_text((SCENES / "hertz.toml").read_text() + table, encoding="utf-8")
-    return path
-
-
-def test_every_key_is_read(tmp_path):
-    assert read_scene_file(file_with(tmp_path, TABLE)).fem_reference == FiniteElementDiscretisation(
-        elements_per_radius=64,
-        contact_radius=4e-4,
-        box=200.0,
-        mesher="gmsh",
-        harmonics=12,
-        penalty=30.0,
-        augmentations=2,
-        tolerance=1e-9,
-    )
-
-
-def test_absent_means_chosen():
-    chosen = read_scene_file(SCENES / "hertz.toml").fem_reference
-    assert chosen == FiniteElementDiscretisation()
-    assert chosen.box is None
-    assert chosen.contact_radius is None
-
-
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "coated_fretting.toml"
 LONG = 100_000
 REFUSED = (
@@ -161,12 +121,6 @@ def test_an_override_replaces_one_key(override: str, attributes: str, expected: 
     for name in attributes.split("."):
         value = value[int(name)] if name.isdigit() else getattr(value, name)
     assert value == expected
-
-
-def test_overrides_make_missing_tables_and_the_last_one_holds() -> None:
-    overrides = ["friction.coefficient=0.3", "friction.coefficient=0.2"]
-    scene = read_scene_file(SCENES / "hertz.toml", overrides).scene
-    assert scene.friction == CoulombFriction(coefficient=0.2)
 
 
 def test_files_named_in_a_scene_lie_beside_it(tmp_path: Path) -> None:

@@ -3,13 +3,10 @@
 import hashlib
 import json
 import os
-import subprocess
-import sys
 import time
 import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +14,8 @@ import h5py
 import numpy as np
 import pytest
 from command import outcome
-from synthetic_result import synthetic_result
+from processes import Ended, run
+from small_result import small_result
 
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, read_checkpoint_file
 from contact_results.directory.file_names import FIELDS, SUMMARY
@@ -25,66 +23,15 @@ from contact_results.files.stored_run import load
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 
-ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
-MAX_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries included
+MAX_MEMORY = 200  # MiB of a whole process, Python and its libraries included
 SOON = 1.0  # seconds of CPU
 # Limit over the time of an empty scene, since processors differ: 10 MB of text take 2 to 5 times.
 AT_ONCE = 8
 CLAIM = "too many for a file of"
 HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
 LONGEST_MESSAGE = 1000
-SCENE = """
-[indenter]
-shape = "height_map"
-file = "heights.npy"
-spacing = "1 um"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[[loading]]
-normal_force = 1
-"""
-
-
 # ---- a whole process -----------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Ended:
-    """How a process ended, and what it took."""
-
-    code: int
-    said: str
-    seconds: float
-    memory: int
-
-
-# Told by the process itself: what the system says of a child begins with the memory of its parent.
-COMMAND = """
-import atexit, re, sys, time
-def tell():
-    peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
-    print("took", time.process_time(), 1024 * int(peak), file=sys.stderr)
-atexit.register(tell)
-from slipstick.cli import main
-main()
-"""
-
-
-def slipstick(*arguments: object) -> Ended:
-    process = subprocess.run(
-        [sys.executable, "-c", COMMAND, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
-    )
-    said, _, took = process.stderr.rpartition("took ")
-    seconds, memory = took.split()
-    words = " ".join(said.replace("│", " ").split())  # out of the frame that typer draws
-    return Ended(process.returncode, words, float(seconds), int(memory))
 
 
 def sparse(path: Path, content: bytes) -> None:
@@ -117,9 +64,9 @@ SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
 @pytest.fixture(scope="module")
 def refusal_of_nothing(tmp_path_factory: pytest.TempPathFactory) -> Ended:
     """What it takes to refuse a small file: Python and its libraries."""
-    path = tmp_path_factory.mktemp("small") / "scene.toml"
-    path.touch()
-    return slipstick("check", path)
+    folder = tmp_path_factory.mktemp("small")
+    (folder / "scene.toml").touch()
+    return run(folder, "check", "scene.toml")
 
 
 @pytest.mark.parametrize(("write", "words"), SCENE_BOMBS.values(), ids=SCENE_BOMBS)
@@ -127,14 +74,14 @@ def test_huge_scene_is_refused_at_once(
     tmp_path: Path, refusal_of_nothing: Ended, write: Callable[[Path], object], words: str
 ) -> None:
     write(tmp_path / "scene.toml")
-    ended = slipstick("check", tmp_path / "scene.toml")
+    ended = run(tmp_path, "check", "scene.toml")
     assert ended.code == 2
-    assert words in ended.said
+    assert words in " ".join(ended.said.replace("│", " ").split())
     assert len(ended.said) < LONGEST_MESSAGE
     assert ended.memory < MAX_MEMORY
     soon = AT_ONCE * refusal_of_nothing.seconds
     if ended.seconds >= soon:  # others on the core slow it, too
-        ended = slipstick("check", tmp_path / "scene.toml")
+        ended = run(tmp_path, "check", "scene.toml")
     assert ended.seconds < soon
 
 
@@ -179,8 +126,8 @@ def claimed(dataset: h5py.Dataset) -> None:
 
 
 def surface_result(path: Path, **changed: tuple[int, ...]) -> None:
-    """A result of 8 x 8 cells and 6 increments."""
-    claiming(synthetic_result((8, 8)), path, **changed)
+    """A result of 24 x 20 cells and 6 increments."""
+    claiming(small_result(), path, **changed)
 
 
 NOT_A_RESULT = f"is not the {FIELDS} of a run: "
@@ -230,11 +177,11 @@ def replaced(file: h5py.File, name: str) -> np.ndarray:
 
 
 def not_a_number(file: h5py.File, folder: Path) -> None:
-    file["increments/pressure"][0, 4, 4] = np.nan
+    file["increments/pressure"][0, 12, 10] = np.nan
 
 
 def other_number(file: h5py.File, folder: Path) -> None:
-    file["increments/pressure"][0, 4, 4] *= 2
+    file["increments/pressure"][0, 12, 10] *= 2
 
 
 def external_link(file: h5py.File, folder: Path) -> None:

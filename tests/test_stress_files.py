@@ -5,7 +5,6 @@ import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
-import meshio
 import numpy as np
 import pytest
 from stored_mesh import read_mesh
@@ -82,7 +81,7 @@ def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
         np.testing.assert_allclose(tensor[:, "xy".index(axis), 2], -FRICTION * pressure, atol=0.03)
 
 
-def test_a_mesh_comes_back_bit_for_bit_whoever_reads_it(tmp_path: Path) -> None:
+def test_a_mesh_comes_back_bit_for_bit(tmp_path: Path) -> None:
     points = np.random.default_rng(0).normal(size=(6, 3))
     cells = ("quad", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
     arrays = {"p [Pa]": points[:, 0] * 1e9, "stress [Pa]": np.arange(54.0).reshape(6, 9)}
@@ -93,11 +92,8 @@ def test_a_mesh_comes_back_bit_for_bit_whoever_reads_it(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.points, points)
     assert again.cells[0] == "quad"
     np.testing.assert_array_equal(again.cells[1], cells[1])
-    theirs = meshio.read(path)
-    raw = theirs.point_data | {name: values for name, (values,) in theirs.cell_data.items()}
     for name, values in (arrays | flags).items():
         np.testing.assert_array_equal((dict(again.at_points) | dict(again.on_cells))[name], values)
-        np.testing.assert_array_equal(raw[name], values)
     assert CONVENTION in path.read_text(encoding="ascii")
     first = path.read_bytes()
     write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)

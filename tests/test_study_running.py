@@ -3,21 +3,15 @@
 import html
 import os
 import re
-import subprocess
-import sys
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, cast
 
 import pytest
-from command import outcome, signalled
 from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
 from contact_results.blas_threads import VARIABLES
-from slipstick.cli import progress
 from slipstick.cli.commands.study import compute_study
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
@@ -34,10 +28,6 @@ from verification.running.case_pool import (
 from verification.running.provenance import provenance
 from verification.running.study import CaseRecord, Settings, StudyRecord, stored_studies
 from verification.studies.catalogue import STUDIES
-
-SCENE = str(Path(__file__).parent / "transcripts" / "strained.toml")
-SIZE = "--set", "semi_analytical.cells=[16,16]", "--levels", "4"
-STUDY = ("convergence", SCENE, *SIZE, "--output", "out")
 
 
 @dataclass
@@ -63,6 +53,24 @@ class InThisProcess:
         pass
 
 
+CASE = Square(3.0)
+EARLIER = Number(value=9.0, process=1)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> CaseStore:
+    return CaseStore(tmp_path, Number)
+
+
+def end_of(
+    store: CaseStore, workers: InThisProcess | None = None, *, fresh: bool = False
+) -> CaseEnd:
+    """End of the case in this process, unless workers are given."""
+    workers = workers or InThisProcess()
+    (end,) = run_cases([CASE], store, workers, lambda end: None, fresh=fresh)
+    return end
+
+
 @pytest.mark.parametrize(
     ("damage", "problem"),
     [
@@ -76,50 +84,43 @@ class InThisProcess:
     ],
 )
 def test_file_that_is_not_the_record_is_named_and_computed_again(
-    damage: Callable[[bytes], bytes], problem: str, tmp_path: Path
+    damage: Callable[[bytes], bytes], problem: str, store: CaseStore
 ) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1))
-    path = store.path(case)
+    store.save(CASE, EARLIER)
+    path = store.path(CASE)
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(DamagedRecord, match=problem) as error:
-        store.load(case)
+        store.load(CASE)
     assert str(path) in str(error.value)
-    (end,) = run_cases([case], store, InThisProcess(), lambda end: None)
+    end = end_of(store)
     assert str(path) in end.damaged
     assert not end.stored
-    assert store.load(case) == end.record == Number(value=9.0, process=os.getpid())
+    assert store.load(CASE) == end.record == Number(value=9.0, process=os.getpid())
 
 
-def test_record_of_other_sources_is_not_taken(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1), b"other sources")
-    assert store.load(case) is None
-    store.save(case, Number(value=9.0, process=2))
-    assert len(list(tmp_path.iterdir())) == 2
-    assert store.load(case) == Number(value=9.0, process=2)
+def test_record_of_other_sources_is_not_taken(store: CaseStore) -> None:
+    store.save(CASE, EARLIER, b"other sources")
+    assert store.load(CASE) is None
+    store.save(CASE, EARLIER)
+    assert len(list(store.path(CASE).parent.iterdir())) == 2
+    assert store.load(CASE) == EARLIER
 
 
-def test_fresh_takes_nothing_from_the_store(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    store.save(case, Number(value=9.0, process=1))
-    (end,) = run_cases([case], store, InThisProcess(), lambda end: None, fresh=True)
-    assert not end.stored
-    assert store.load(case) == Number(value=9.0, process=os.getpid())
+def test_fresh_takes_nothing_from_the_store(store: CaseStore) -> None:
+    store.save(CASE, EARLIER)
+    assert not end_of(store, fresh=True).stored
+    assert store.load(CASE) == Number(value=9.0, process=os.getpid())
 
 
 @pytest.mark.parametrize("elsewhere", [False, True])
-def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_path: Path) -> None:
+def test_only_workers_elsewhere_must_have_the_same_sources(
+    elsewhere: bool, store: CaseStore
+) -> None:
     """A source that is edited during a run of hours does not stop it; nothing false is stored."""
-    store, case, pool = (
-        CaseStore(tmp_path, Number),
-        Square(3.0),
-        InThisProcess(elsewhere, b"edited"),
-    )
-    (end,) = run_cases([case], store, pool, lambda end: None)
+    end = end_of(store, InThisProcess(elsewhere, b"edited"))
     assert (end.lost is None) is not elsewhere
     assert (end.record is None) is elsewhere
-    assert store.load(case) is None
+    assert store.load(CASE) is None
 
 
 def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:
@@ -158,43 +159,6 @@ def test_a_worker_has_one_thread_whatever_was_asked_for(monkeypatch: pytest.Monk
         assert [workers.submit(os.getenv, name).result() for name in VARIABLES] == ["1"] * 3
     finally:
         workers.close()
-
-
-@pytest.fixture(scope="module")
-def killed_and_resumed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, int]]:
-    """A study that was killed after its first record, then run again; the records it had."""
-    directory = tmp_path_factory.mktemp("study")
-    cases = directory / "out" / "cases"
-    program = signalled("SIGKILL", saved=1) + "from slipstick.cli import main; main()"
-    subprocess.run(
-        [sys.executable, "-c", program, *STUDY, "--workers", "1"],
-        cwd=directory,
-        stderr=subprocess.DEVNULL,
-        check=False,
-    )
-    kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("*.json")}
-    assert len(kept) == 1
-    assert not (directory / "out" / "study.json").exists()
-    ended = outcome(*STUDY, "--workers", "1", cwd=directory)
-    assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert ended.stderr.count("already there") == len(kept)
-    return directory / "out", kept
-
-
-def test_record_of_a_scene_represents_no_level(
-    killed_and_resumed: tuple[Path, dict[str, int]],
-) -> None:
-    (record,) = stored_studies(killed_and_resumed[0].parent)
-    assert record.own_cells
-
-
-def test_killed_study_goes_on_where_it_stopped(
-    killed_and_resumed: tuple[Path, dict[str, int]],
-) -> None:
-    out, kept = killed_and_resumed
-    now = {path.name: path.stat().st_mtime_ns for path in (out / "cases").glob("*.json")}
-    assert len(now) == 9
-    assert now | kept == now
 
 
 def stored(directory: Path, name: str = "stability") -> StudyRecord:
@@ -279,18 +243,3 @@ def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path: Path, s
     (end,) = run_cases([Timed(0.02, said)], CaseStore(tmp_path), InThisProcess(), lambda end: None)
     assert isinstance(end.record, CaseRecord)
     assert end.record.seconds == said if said else 0.02 <= end.record.seconds < 1.0
-
-
-def test_the_time_left_is_in_proportion_to_the_work_left(monkeypatch, capsys) -> None:
-    clock = iter((0.0, 10.0)).__next__
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=clock))
-    cases: Any = tuple(SimpleNamespace(name=name) for name in ("small", "large"))
-
-    monkeypatch.setattr(
-        "verification.running.case_pool.run_cases",
-        lambda cases, store, workers, observe, fresh, warn: [
-            observe(SimpleNamespace(case=case, stored=False)) for case in cases
-        ],
-    )
-    progress.run_with_progress(cases, cast("Any", None), 1, str, {"small": 1, "large": 3})
-    assert "(1 of 2, about 30 s left)" in capsys.readouterr().err

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
-from slipstick.sweep import Variation
 from slipstick.sweep_chart import SweptQuantity, round_ticks
 
 pytestmark = pytest.mark.usefixtures("one_process")
@@ -43,22 +42,6 @@ def sweep(scene: Path, *arguments: object, out: str = "out"):
     return outcome("sweep", scene, "-o", out, *arguments, cwd=scene.parent)
 
 
-@pytest.mark.parametrize(
-    ("text", "values", "unit"),
-    [
-        ("a=1..64 um log 4", (1, 4, 16, 64), "um"),
-        ("a=.1...3 3", (0.1, 0.2, 0.3), ""),
-        ("a.b[2].c=-1..1 N mm 2", (-1, 1), "N mm"),
-        ("a=1e-3..1 log 4", (1e-3, 1e-2, 0.1, 1), ""),
-        ("a=normal(4,0.2) um 1", (4,), "um"),
-        ("a=normal(0, 1) N/m^2 2", (-0.674489750196, 0.674489750196), "N/m^2"),
-    ],
-)
-def test_a_variation_has_its_values_and_its_unit(text, values, unit) -> None:
-    found = Variation.of(text)
-    assert (found.values, found.unit) == (pytest.approx(values, rel=1e-11), unit)
-
-
 def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> None:
     varied = (
         "--vary",
@@ -80,11 +63,6 @@ def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> N
     again = json.loads((scene.parent / "again/summary.json").read_text(encoding="utf-8"))
     assert again["steps"][-1]["peak_pressure"] == float(found[4]["peak_pressure [Pa]"])
     assert (scene.parent / "out/sweep.png").stat().st_size > 5000
-
-    before = (scene.parent / "out/sweep.csv").read_bytes()
-    resumed = sweep(scene, *varied, *wanted)
-    assert resumed.stderr.count("already there") == 6
-    assert (scene.parent / "out/sweep.csv").read_bytes() == before
     scene.write_text(HERTZ.replace("0.3 }\n[body]", "0.2 }\n[body]"), encoding="utf-8")
     assert "already there" not in sweep(scene, *varied, *wanted).stderr
 
@@ -105,12 +83,6 @@ def test_ticks_of_a_logarithmic_axis_are_round_numbers(
     ends: tuple[float, float], ticks: list[float]
 ) -> None:
     assert round_ticks(*ends) == ticks
-
-
-def test_an_axis_names_its_quantity_in_words_with_a_readable_unit() -> None:
-    values = np.array([[1e9], [2e9]])
-    assert SweptQuantity("peak_pressure", "Pa", values, values).label == "peak pressure (GPa)"
-    assert SweptQuantity("stick_fraction", "", values, values).label == "stick fraction"
 
 
 def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:

@@ -110,7 +110,6 @@ def test_a_table_is_read_alike_for_every_use(use: str, kind: str, tmp_path: Path
 
 
 PLAIN = table(",")
-FOURTH = PLAIN.index("0.5,0.0,4")
 REFUSED = {
     "row behind a comment sign": (PLAIN.replace("0.125,", "#0.125,"), "line 3 .* comment"),
     "failed value": (PLAIN.replace("0.125,", "#NAME?,"), "line 3 .* comment"),
@@ -156,13 +155,6 @@ def test_a_missing_value_is_filled_in_heights_alone(word: str, tmp_path: Path) -
             use(path)
 
 
-def test_empty_rows_at_the_end_of_columns_are_ignored(tmp_path: Path) -> None:
-    path = tmp_path / "table.csv"
-    path.write_text(PLAIN + ",,,,\n,,,,\n", encoding="utf-8")
-    np.testing.assert_allclose(measured(path), VALUES, rtol=1e-14)
-    np.testing.assert_allclose(points(path), VALUES, rtol=1e-14)
-
-
 @pytest.mark.parametrize(
     ("heads", "match"),
     [
@@ -178,11 +170,4 @@ def test_a_line_of_heads_without_meaning_is_refused(heads: str, match: str, tmp_
     path = tmp_path / "table.csv"
     path.write_text(PLAIN.replace(",".join(HEADS), heads), encoding="utf-8")
     with pytest.raises(ValueError, match=match):
-        measured(path)
-
-
-def test_a_row_that_is_cut_off_is_named(tmp_path: Path) -> None:
-    path = tmp_path / "table.csv"
-    path.write_text("x [mm],p [GPa]\n1,2\n1", encoding="utf-8")
-    with pytest.raises(ValueError, match=r'line 3 of "table.csv", "1": got 1, expected 2'):
         measured(path)

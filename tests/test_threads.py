@@ -1,11 +1,15 @@
-"""Tests of linear algebra with two threads: results have the same bytes as with one."""
+"""Tests of threads of linear algebra: one unless told, and the same bytes by two as by one."""
 
+import os
 import re
 from pathlib import Path
 
 import pytest
 from command import slipstick
 from processes import results, run
+
+from contact_results.blas_threads import VARIABLES
+from slipstick.cli import main
 
 SCENE = (Path(__file__).resolve().parents[1] / "scenes" / "coated_ball.toml").read_text("utf-8")
 QUICK = ("--figures", "none", "--no-error")
@@ -41,3 +45,16 @@ def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
     one, two = (run(folder, *words, threads=threads).out for threads in (1, 2))
     assert one.count("\n") > 4
     assert one == two
+
+
+@pytest.mark.parametrize(("asked", "used"), [(None, "1"), ("3", "3")])
+def test_commands_use_one_thread_unless_told(
+    asked: str | None, used: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in VARIABLES:
+        monkeypatch.delenv(name, raising=False)
+        if asked is not None:
+            monkeypatch.setenv(name, asked)
+    with pytest.raises(SystemExit):
+        main(["--version"])
+    assert [os.environ[name] for name in VARIABLES] == [used] * len(VARIABLES)

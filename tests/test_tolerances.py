@@ -88,7 +88,6 @@ def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
     failed = [v for v in worse.verdicts if v.bound is not None and v.error > 4 * FLOOR]
     assert failed
     assert all(verdict.status is Status.FAIL for verdict in failed)
-    assert proposed([report_by(held)]) == {}
     uncertain = tuple(
         v.model_copy(update={"reference_uncertainty": 0.6 * v.allowed * v.scale})
         for v in outcome.verdicts

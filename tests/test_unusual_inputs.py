@@ -27,7 +27,6 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.checks.plausibility import implausible_input
-from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
@@ -79,9 +78,6 @@ def test_a_sampled_ball_touches_where_the_ball_does(
     end = result.steps[-1]
     assert end.normal_force == pytest.approx(FORCE, rel=2e-5)
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
-
-
-# Default cells divide the spacing of a map.
 
 
 # A degenerate value is the absence of its effect: the same plan, the same bits.
@@ -137,13 +133,6 @@ def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any
     ends = [slipstick.solve(asked, solver, COARSE[solver]).steps[-1] for asked in DEGENERATE[name]]
     for quantity in ("approach", "contact_radius", "peak_pressure", "pressure"):
         np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
-
-
-def test_a_scene_knows_the_arrays_that_it_reads_and_names_its_shape() -> None:
-    rough = scene(PRESS, indenter=ball_map(16), friction=uniform(0.3))
-    assert set(rough.array_files) == {"file", "map"}
-    assert not BARE.array_files
-    assert "height map" in shape_text(rough.indenter)
 
 
 def test_a_constant_map_is_known_within_its_extent_only() -> None:
@@ -256,24 +245,6 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     np.testing.assert_array_equal(found.heights[known], gaps[known])
     remarks = implausible_input(scene(PRESS, indenter=found))
     assert any("0.079 of the points were not measured" in remark for remark in remarks)
-
-
-@pytest.mark.parametrize(
-    ("text", "match"),
-    [
-        ("", "no numbers"),
-        ("some\nwords\n", "no numbers"),
-        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'is no number: "1,x,3,4"'),
-        ("1,x,3,4\n" + "1,2,3,4\n" * 4, 'is no number: "1,x,3,4"'),
-        ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
-        ("0 0 1\n" * 9, "have 3 numbers, expected values without their coordinates"),
-        (("1," * 9 + "inf\n") * 9, "holds inf"),
-        (("1" + "," * 9 + "\n") * 9, "no height at 89%"),
-    ],
-)
-def test_a_text_file_that_is_no_map_is_refused(text: str, match: str, tmp_path: Path) -> None:
-    with pytest.raises(ValidationError, match=match):
-        read_map(tmp_path, "map.csv", text)
 
 
 def warnings_of(folder: Path, values: np.ndarray) -> list[str]:

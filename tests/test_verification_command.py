@@ -1,5 +1,4 @@
-"""Tests of `slipstick verify` and `slipstick maintain report` from end to end, on one small
-case."""
+"""Tests of verifications: solves that are bad, given up or lost fail, and a killed one goes on."""
 
 import json
 import re
@@ -10,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from command import outcome, signalled
+from command import signalled, succeeded
 
 from contact_scene.solver_errors import NotConverged
 from verification.cases.catalogue import choose, lost
@@ -36,16 +35,6 @@ from verification.report.file_names import FILES, PAGE, RECORD
 from verification.report.files import EARLIER
 
 pytestmark = pytest.mark.usefixtures("one_process")
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    directory = tmp_path_factory.mktemp("verify")
-    ended = outcome("verify", "hertz_approach_control", "--output", "out/put", cwd=directory)
-    assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "hertz_approach_control" in ended.stderr
-    assert f"report: {Path('out/put') / PAGE}" in ended.stdout
-    return directory / "out" / "put"
 
 
 # ---- verdicts
@@ -132,8 +121,7 @@ def report(directory: Path) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify") / "report"
-    whole = outcome("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
-    assert whole.returncode == 0, whole.stderr
+    whole = succeeded("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
     assert re.search(r"\(1 of 4, about \d+ s left\)", whole.stderr)
     return directory
 
@@ -152,8 +140,9 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert not any((tmp_path / name).exists() for name in FILES)
     assert report(tmp_path / EARLIER) == report(uninterrupted)
 
-    again = outcome("verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent)
-    assert again.returncode == 0, again.stderr
+    again = succeeded(
+        "verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent
+    )
     assert again.stderr.count("already there") == len(kept)
     assert records(tmp_path) | kept == records(tmp_path)
     assert report(tmp_path) == report(uninterrupted)

@@ -3,7 +3,6 @@
 import os
 import re
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -11,17 +10,16 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
+from processes import begun, has_ended
 from study_cases import Endless, Killed, Loop, Number, Refusing, Square
 
 from verification.running.case_pool import (
-    OTHER_CODE,
     CaseStore,
     ClusterWorkers,
     run_cases,
 )
 from verification.running.study import StudyCase
 
-ROOT = Path(__file__).resolve().parents[1]
 CASES = (
     Loop("semi-analytical", 40.0),
     Loop("fem-complementarity", 40.0),
@@ -49,24 +47,6 @@ def test_neither_the_number_of_workers_nor_the_order_changes_a_bit(tmp_path: Pat
         assert record.partition('"fields":"')[2][:64].encode() in alone[name]
 
 
-def python(program: str, *words: str) -> "subprocess.Popen[str]":
-    return subprocess.Popen(
-        [sys.executable, "-c", program, *words],
-        cwd=ROOT / "tests",
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, sys.path)])},
-        text=True,
-        stdout=subprocess.PIPE,
-    )
-
-
-def gone(process: int) -> bool:
-    try:
-        state = Path(f"/proc/{process}/stat").read_text(encoding="ascii").rpartition(")")[2]
-    except (FileNotFoundError, ProcessLookupError):
-        return True
-    return state.split()[0] == "Z"  # nobody has asked how it ended
-
-
 ENDLESS = """
 import sys
 from pathlib import Path
@@ -81,18 +61,15 @@ if __name__ == "__main__":
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
 def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     told = tmp_path / "pid"
-    parent = python(ENDLESS, str(told), str(tmp_path / "cases"))
+    parent = begun(tmp_path, str(told), str(tmp_path / "cases"), program=ENDLESS)
     until = time.monotonic() + PATIENCE
     while not (told.exists() and told.read_text(encoding="ascii")):
         assert time.monotonic() < until
         time.sleep(0.05)
     worker = int(told.read_text(encoding="ascii"))
-    assert not gone(worker)
     parent.send_signal(signal.SIGKILL)
     parent.communicate()
-    while not gone(worker):
-        assert time.monotonic() < until
-        time.sleep(0.05)
+    assert has_ended(worker)
 
 
 # ---- cluster
@@ -153,31 +130,3 @@ def test_cluster_whose_workers_have_all_died_is_not_waited_for(
     reasons = [end.lost.reason for end in ends[1:] if end.lost is not None]
     assert len(reasons) == 2
     assert all(one.startswith(f"no worker is left: {worker} died, and none") for one in reasons)
-
-
-@pytest.mark.slow
-def test_workers_of_other_sources_are_refused(
-    address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("verification.running.case_pool.code_digest", lambda: b"other")
-    (end,) = run_cases([Square(1.0)], CaseStore(tmp_path, Number), ClusterWorkers(address), print)
-    assert end.record is None
-    assert end.lost is not None
-    assert end.lost.reason == OTHER_CODE
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(900)
-def test_verification_on_a_cluster_gives_the_report_of_this_machine(
-    address: str, tmp_path: Path
-) -> None:
-    from slipstick.cli.commands.verify import judge_cases
-    from verification.cases.catalogue import choose
-    from verification.judging.case import Level
-
-    cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
-    here, *_ = judge_cases(cases, "QUICK", tmp_path / "here", 1, fresh=False)
-    there, *_ = judge_cases(
-        cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False
-    )
-    assert there == here

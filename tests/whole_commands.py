@@ -3,21 +3,16 @@
 Every scene is planned and run by all solvers, and every result is exported. A command must end with
 a documented exit code, without a traceback, an internal error or a RuntimeWarning. All solvers that
 solve a scene must give it the same outcome: solved, gross slip at the limit, or refused above it.
-
-    python tests/whole_commands.py [--count SCENES] [--seed SEED]    prints the failures
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import re
 import signal
 import warnings
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -133,41 +128,22 @@ def write_scene(scene: Scene, file: Path) -> None:
     file.write_text("".join(lines) + COARSE, encoding="utf-8")
 
 
-@dataclass
-class Campaign:
-    """Commands of a campaign so far: counts of outcomes, and the failures in words."""
-
-    counts: Counter[str] = field(default_factory=Counter)
-    failures: list[str] = field(default_factory=list)
-
-    def command(self, about: str, name: str, *arguments: str | Path) -> Outcome:
-        """Run a command and note its failure.
-
-        about  solver and scene, for the message
-        """
-        outcome = run_command(name, *arguments)
-        self.counts[f"{name} {outcome.code}"] += 1
-        if outcome.code not in ALLOWED or UNWANTED.search(outcome.text):
-            self.failures.append(f"{about}: {name} ends with {outcome.code}: {_end(outcome)}")
-        return outcome
-
-    def solve_scene(self, name: str, scene: Path) -> None:
-        """Plan, run and export a scene by all solvers, and compare their outcomes.
-
-        name   values of the scene, for the message
-        scene  scene file
-        """
-        found = {}
-        for solver in SOLVERS:
-            about, output = f"{solver}, {name}", scene.parent / solver
-            self.command(about, "plan", scene, "--solver", solver)
-            options = ("--solver", solver, "--figures", "none", "--overwrite", "--output", output)
-            ran = self.command(about, "run", scene, *options)
-            found[solver] = _class_of(ran, output)
-            if ran.code == ExitCode.PASS:
-                self.command(about, "export", output, "--output", output / "surface")
-        if len(set(found.values()) - {None}) > 1:
-            self.failures.append(f"{name}: {found}")
+def _failures_of(scene: Path) -> Iterator[str]:
+    """Plan, run and export a scene by all solvers; yield the failures, and unequal outcomes."""
+    found = {}
+    for solver in SOLVERS:
+        output = scene.parent / solver
+        plan = ("plan", scene, "--solver", solver)
+        options = ("--solver", solver, "--figures", "none", "--overwrite", "--output", output)
+        ends = {"plan": run_command(*plan), "run": run_command("run", scene, *options)}
+        found[solver] = _class_of(ends["run"], output)
+        if ends["run"].code == ExitCode.PASS:
+            ends["export"] = run_command("export", output, "--output", output / "surface")
+        for name, end in ends.items():
+            if end.code not in ALLOWED or UNWANTED.search(end.text):
+                yield f"{solver}: {name} ends with {end.code}: {end.text.strip()[-300:]}"
+    if len(set(found.values()) - {None}) > 1:
+        yield f"outcomes differ: {found}"
 
 
 def _class_of(ran: Outcome, output: Path) -> str | None:
@@ -183,10 +159,6 @@ def _class_of(ran: Outcome, output: Path) -> str | None:
     return "gross slip" if slides else f"undefined shift with {last['status']}, {warned} warnings"
 
 
-def _end(outcome: Outcome) -> str:
-    return outcome.text.strip()[-300:]
-
-
 def draw_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
     """Draw scenes of the stability map; contacts that no scene can express are left out."""
     rng = np.random.default_rng(seed)
@@ -200,26 +172,16 @@ def draw_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
         yield cell.name, scene
 
 
-def campaign(count: int, seed: int) -> Campaign:
-    """Run all commands of drawn scenes by all solvers.
+def failures_of_drawn_scenes(count: int, seed: int) -> list[str]:
+    """Run all commands of drawn scenes by all solvers; return the failures in words.
 
     count  number of scenes
     seed   seed of the random numbers
     """
-    done = Campaign()
+    failures = []
     for name, scene in draw_scenes(count, seed):
         with TemporaryDirectory() as folder:
             file = Path(folder) / "scene.toml"
             write_scene(scene, file)
-            done.solve_scene(name, file)
-    return done
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=0)
-    asked = parser.parse_args()
-    found = campaign(asked.count, asked.seed)
-    print(*found.failures, sep="\n")
-    print(sum(found.counts.values()), "commands:", dict(found.counts))
+            failures += [f"{name}: {failure}" for failure in _failures_of(file)]
+    return failures

@@ -1,0 +1,116 @@
+"""Tests of exit codes: a failed run ends with the code of its error, one message and no files."""
+
+import errno
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from command import slipstick
+from small_result import small_result
+
+from contact_scene.solver_errors import (
+    AccuracyOutOfReach,
+    ContactAtWindowEdge,
+    ContactAtZoneEdge,
+    ContactNotResolved,
+    GrossSliding,
+    NotConverged,
+    NothingTouches,
+    ResourceRefused,
+    SolverError,
+    SurfacesOverlap,
+    UnsupportedScene,
+)
+from fem_reference.mesh.gmsh_mesh import GmshMissing
+from semi_analytical.discretised import CellSolver
+
+SCENE = """
+title = "Ball on a flat"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["90 N", 0]
+increments = 3
+[[loading]]
+tangential_force = ["-90 N", 0]
+increments = 2
+"""
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None]:
+    """Replace the solver by one that hands out a ready result, or fails as it is told."""
+
+    def replace_by(failure: Exception | None) -> None:
+        def run(solver: CellSolver, progress: Any, store: Any = None) -> Any:
+            result = small_result()
+            for increment in result.increments:
+                progress(increment)
+            if failure is not None:
+                raise failure
+            return result
+
+        monkeypatch.setattr(CellSolver, "run", run)
+
+    return replace_by
+
+
+FAILURES = {
+    2: (
+        GrossSliding("tangential force exceeds the limit"),
+        ContactAtWindowEdge("contact touches the edge"),
+        ContactAtZoneEdge("contact touches the end of the fine rings"),
+        AccuracyOutOfReach("no grid can meet the request"),
+        UnsupportedScene("no layers yet"),
+        GmshMissing("gmsh cannot be loaded"),
+        OSError(errno.EACCES, "Permission denied", "out/result.h5"),
+    ),
+    3: (
+        NotConverged("pressure", 100, 1e-3, 1e-8),
+        ContactNotResolved("the contact is smaller than the cells"),
+        NothingTouches("no cell touches"),
+        SurfacesOverlap(1e-2, 3, 1e-3),
+    ),
+    4: (
+        ResourceRefused("needs 80 GB"),
+        MemoryError("Unable to allocate 80 GiB"),
+        OSError(errno.ENOSPC, "No space left on device", "out/result.h5"),
+    ),
+    70: (ZeroDivisionError("a defect"), ValueError("another")),
+}
+
+
+def test_every_error_of_a_solver_has_a_stated_code() -> None:
+    stated = {type(failure) for failures in FAILURES.values() for failure in failures}
+    assert {*SolverError.__subclasses__(), NothingTouches} <= stated
+
+
+@pytest.mark.parametrize(
+    ("code", "failure"), [(code, each) for code, failures in FAILURES.items() for each in failures]
+)
+def test_failure_ends_with_its_code_one_message_and_no_files(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str], code: int, failure: Exception
+) -> None:
+    solver(failure)
+    assert slipstick("run", scene, "--output", scene.parent / "out") == code
+    errors = capsys.readouterr().err
+    assert errors.count("error: ") == 1
+    assert "Traceback" not in errors
+    assert os.listdir(scene.parent) == [scene.name]

@@ -1,0 +1,211 @@
+"""Tests of the report page: cases by physics, claims, the table of validity, units and size."""
+
+import ast
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from report_examples import (
+    STEEL,
+    case,
+    chart,
+    report_of,
+    run_record,
+    study,
+    verdict,
+)
+
+from contact_scene import (
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from verification.exhibits.chart import Table
+from verification.judging.outcome import (
+    CaseOutcome,
+    Status,
+    Verdict,
+    error_text,
+)
+from verification.judging.tested_parameters import dimensionless_parameters
+from verification.report.file_names import SHEETS
+from verification.report.page import MAX_CHARTS, cases_by_physics, render_page, render_sheets
+from verification.report.summary_text import claims_line, features, power_text
+from verification.report.validity import validity_table
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
+    one = case(name, {}, run_record(64, None), drawn=False)
+    return one.model_copy(update={"verdicts": verdicts})
+
+
+SHOWN = ("flat_punch", "cone_contact", "hertz_point", "radial_torsion", "torsion", "unlisted")
+
+
+def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first() -> None:
+    """The last case has a run without a result, whose verdict has no error to compare."""
+    names = {"hertz_point": 1.001, "torsion": 1.003, "cone_contact": 1.009, "radial_torsion": 1.004}
+    lost = verdict("solved", 1.0, 1.0).model_copy(
+        update={"value": None, "error": None, "status": Status.FAIL}
+    )
+    cases = [judged(verdict("radius", value, 1.0), name=name) for name, value in names.items()]
+    cases += [judged(lost, name="flat_punch"), judged(verdict("x", 1.0, 1.0), name="unlisted")]
+    groups = cases_by_physics(cases)
+    assert {title: [one.name for one in group] for title, group in groups.items()} == {
+        "indenters": ["flat_punch", "cone_contact", "hertz_point"],
+        "torsion": ["radial_torsion", "torsion"],
+        "unlisted": ["unlisted"],
+    }
+    page = render_page(report_of(tuple(cases)))
+    places = [page.index(f"{SHEETS}#{name}", page.index('id="cases"')) for name in SHOWN]
+    assert places == sorted(places)
+
+
+def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:
+    """Errors are relative to the scale of their verdict, here 1e9 and 1e-9."""
+    found = [verdict("p", s * (1 + e), s) for s in (1e9, 1e-9) for e in (1e-6, 5e-13)]
+    assert [error_text(one) for one in found] == ["1e-6", "< 1e-12"] * 2
+    assert power_text(report_of((judged(*found),))).startswith("Of 2 numbers with a reference")
+    assert render_sheets(report_of((judged(*found),))).count("&lt; 1e-12") == 2
+
+
+def test_a_claim_that_is_inconclusive_does_not_hold() -> None:
+    outcomes = (Status.PASS, Status.FAIL, Status.INCONCLUSIVE, None)
+    stated = [SimpleNamespace(outcome=outcome) for outcome in outcomes]
+    record: Any = SimpleNamespace(level="full", conclusion=SimpleNamespace(statements=stated))
+    assert claims_line(record) == "1 of its 3 judged claims hold (level full)"
+
+
+def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:
+    """What has none is dimensionless by somebody's word, not because nobody has thought of it."""
+    silent = [
+        f"{path}:{call.lineno}"
+        for path in sorted((ROOT / "verification").rglob("*.py"))
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Name)
+        and call.func.id == "Table"
+        and "units" not in {keyword.arg for keyword in call.keywords}
+    ]
+    assert silent == []
+
+
+def test_promises_have_figures_or_the_command_that_finds_them() -> None:
+    planned, forced = (
+        run_record(48, None).model_copy(
+            update={"label": how, "convolutions": count, "planned": planned}
+        )
+        for how, count, planned in (("as planned", 20, None), ("all on", 50, "as planned"))
+    )
+    same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
+    report = report_of(
+        (same.model_copy(update={"runs": (planned, forced)}),), (study("stability", level="full"),)
+    )
+    plan, cost, stable, _ = features(report, SHEETS)
+    assert "2.5 to 2.5 times the convolutions" in plan.figures
+    assert cost.status is None
+    assert "slipstick maintain study work-precision" in cost.figures
+    assert stable.status is Status.FAIL
+
+
+def test_a_quick_page_stays_small() -> None:
+    charts = tuple(chart(f"map_{n}", f"View {n}") for n in range(14))
+    cells = Table(title="Cells", columns=("cell", "residual"), rows=(("a", "1e-9"),) * 300)
+    large = study("seeded-defects")
+    conclusion = large.conclusion.model_copy(update={"charts": charts, "tables": (cells,)})
+    report = report_of((), (large.model_copy(update={"conclusion": conclusion}),))
+    quick = render_page(report)
+    assert quick.count("<svg") == MAX_CHARTS < 14
+    assert "1e-9" not in quick
+    full = render_page(report.model_copy(update={"level": "full"}))
+    assert full.count("<svg") == 14
+    assert full.count("1e-9") == 300
+
+
+# ---- table of validity
+
+
+COATING = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
+
+
+def result_of(*rows: tuple[float, float, tuple[float, float] | None]) -> Any:
+    """Increments of a contact radius, a normal force and a tangential force."""
+    names = ("contact_radius", "normal_force", "tangential_force")
+    increments = [SimpleNamespace(**dict(zip(names, row, strict=True))) for row in rows]
+    return SimpleNamespace(increments=increments)
+
+
+def coated(body: Body, friction: CoulombFriction | None) -> Scene:
+    ball = Paraboloid(radius=18e-3, material=STEEL)
+    return Scene(indenter=ball, body=body, friction=friction, loading=(LoadStep(normal_force=1e3),))
+
+
+def test_parameters_are_those_of_the_largest_contact_and_the_largest_tangential_force() -> None:
+    layers = (Layer(thickness=1e-4, material=COATING),)
+    scene = coated(Body(material=STEEL, layers=layers), CoulombFriction(coefficient=0.2))
+    rows = [(1e-4, 50.0, None), (4e-4, 1e3, (90.0, 120.0)), (2e-4, 500.0, (10.0, 0.0))]
+    empty = (0.0, 0.0, (0.0, 0.0))  # separated
+    result = result_of(*rows, empty)
+    assert dimensionless_parameters(scene, result) == {
+        "h/a": (0.25,),
+        "E1/E2": (2.0,),
+        "ν": (0.2, 0.3),
+        "µ": (0.2,),
+        "T/(µW)": (0.75,),
+    }
+
+
+def judged_at(
+    name: str, values: dict[str, tuple[float, float]], parameters: dict[str, tuple[float, ...]]
+) -> CaseOutcome:
+    run = run_record(64, None).model_copy(update={"parameters": parameters})
+    return case(name, values, run, drawn=False)
+
+
+@pytest.fixture
+def cases() -> tuple[CaseOutcome, ...]:
+    """Errors of 1e-3, 4e-3 and 9e-3 with a tolerance of 1 %; the last run has no parameters."""
+    soft = judged_at("soft", {"radius": (1.001, 1.0)}, {"ν": (0.3,), "µ": (0.05,)})
+    thin = judged_at(
+        "thin", {"radius": (1.004, 1.0), "peak": (1.0, 1.0)}, {"ν": (0.3, 0.45), "µ": (0.1,)}
+    )
+    old = judged_at("old", {"radius": (1.009, 1.0)}, {})
+    return soft, thin, old
+
+
+def test_a_row_has_the_tested_range_and_the_largest_error_in_it(
+    cases: tuple[CaseOutcome, ...],
+) -> None:
+    table = validity_table(report_of(cases))
+    assert table.rows == (
+        ("ν", "0.3", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
+        ("ν", "0.45", "1", "0.004", "thin/radius", "40 %", "thin/radius"),
+        ("µ", "0.05 to 0.1", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
+    )
+    assert "Validity" in render_page(report_of(cases))
+
+
+def test_errors_to_the_same_program_count_for_the_tolerance_only(
+    cases: tuple[CaseOutcome, ...],
+) -> None:
+    """A refinement of the same solver is no reference from outside; an order is no number."""
+    soft, thin, _ = cases
+    own = [one.model_copy(update={"reference_kind": "own refinement"}) for one in thin.verdicts]
+    orders = [one.model_copy(update={"tolerance_kind": "order"}) for one in thin.verdicts]
+
+    def row(verdicts: object) -> tuple[str, ...]:
+        changed = thin.model_copy(update={"verdicts": verdicts})
+        rows = validity_table(report_of((soft, changed))).rows
+        return next(row for row in rows if row[0] == "µ")
+
+    assert row(own) == ("µ", "0.05 to 0.1", "2", "0.001", "soft/radius", "40 %", "thin/radius")
+    assert row(orders) == ("µ", "0.05", "1", "0.001", "soft/radius", "10 %", "soft/radius")
+    alone = thin.model_copy(update={"verdicts": tuple(own)})
+    assert validity_table(report_of((alone,))).rows[0][3:5] == ("–", "no reference from outside")
