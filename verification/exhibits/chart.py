@@ -122,13 +122,11 @@ def log_chart(
     curves: Iterable[Curve],
     *,
     height: float = HEIGHT,
-    y_places: tuple[str, ...] = (),
 ) -> Chart:
     """Create a chart of one panel with logarithmic axes, for instance for errors against cell size.
 
     x_label, y_label  labels of the axes
     height            height of the panel; the unit is 1.5 inches
-    y_places          names of the positions 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
         x_label=x_label,
@@ -136,7 +134,6 @@ def log_chart(
         curves=tuple(curves),
         logarithmic=True,
         height=height,
-        y_places=y_places,
     )
     return Chart(name=name, title=title, caption=caption, rows=((panel,),))
 
