@@ -22,13 +22,14 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Vector
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities.increment import State
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.stress import subsurface
-from verification.challenge.requested_quantities import Answer, Field, Key, Solver, Vector
+from verification.challenge.requested_quantities import Answer, Field, Key, Solver
 from verification.challenge.solver_process import CannotDo, Posed
 from verification.observed.ring_errors import along_radii, at_radii, outward
 from verification.quantities import shear_of

@@ -14,7 +14,6 @@ from math import atan, log, pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import (
     RIGID,
@@ -25,6 +24,7 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
 )
+from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import worst
 from radial.normal.disc import disc
 from radial.normal.surface import pressure
@@ -149,8 +149,6 @@ def ratio_weight(xi: float) -> float:
     """
     return 2 / pi * atan(xi) + xi / pi * log((1 + xi**2) / xi**2)
 
-
-Field = NDArray[np.float64]
 
 STUDIED = 2.0  # E1/E2 of the row whose convergence is studied
 COATINGS = {row["E1_over_E2"]: coated_ball(row) for row in ROWS}

@@ -15,11 +15,11 @@ from itertools import combinations, product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_results.surface import surface_of
 from contact_scene import FiniteElementDiscretisation, LoadStep, Scene
+from contact_scene.array_types import Field
 from fem_reference.stress import SurfaceTractions
 from fem_reference.stress import subsurface as section_field
 from semi_analytical.frf.depth import Level as Depth
@@ -69,7 +69,6 @@ from verification.problems.problem import (
 from verification.quantities import shear_of, shift_along_x
 from verification.references import load_reference
 
-Field = NDArray[np.float64]
 Results = Mapping[str, Any]
 
 MARGIN = 1.15  # half the window side over the contact radius without friction
@@ -550,7 +549,7 @@ NAMES = {
     "coated_frictionless": "coated, no friction",
     "coated_frictional": "coated, µ = 0.1",
 }
-Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
+Reader = Callable[[Any, Field], Field]
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
@@ -28,6 +27,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
@@ -163,8 +163,6 @@ SHEAR_AT_EDGE = error_norm(
     field_errors.stick_edge_error,
     OVER_LIMIT,
 )
-
-Field = NDArray[np.float64]
 
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:

@@ -15,7 +15,6 @@ from math import cos, radians, sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 import semi_analytical
@@ -32,6 +31,7 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
@@ -86,7 +86,6 @@ from verification.problems.problem import (
 )
 from verification.quantities import shear_of, shift_along_x
 
-Field = NDArray[np.float64]
 Difference = Callable[[Any, Any], float]
 
 ANSWERED = "residuals of two solves, amplified a few times in the tractions"

@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from contact_results.cycles import fretting_cycles
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import OnCells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
+from contact_scene.array_types import Field
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.hertz import EllipticalContact
@@ -120,7 +121,7 @@ class EccentricContact:
         a, b = self.stick.semi_axes
         return float(np.sqrt(a * b))
 
-    def shear(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, x: ArrayLike, y: ArrayLike) -> Field:
         """Compute the shear along x on the lower body at points (x, y) [force/length²]."""
         xs = np.asarray(x, dtype=float)
         lacking = self.stick.pressure(xs - self.eccentricity, y)

@@ -13,7 +13,6 @@ from math import hypot, pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 from contact_errors.coarse_solves import stated_errors
@@ -26,6 +25,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
@@ -91,8 +91,6 @@ from verification.problems.problem import (
     rigid_ball,
 )
 from verification.quantities import energy_between, shear_of
-
-Field = NDArray[np.float64]
 
 SLIDING = "of the sliding torque"
 HALF_A_PER_CENT = "the accuracy target is 0.5 % of the twist at 128 x 128"

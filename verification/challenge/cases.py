@@ -12,7 +12,6 @@ from math import log
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_scene import (
@@ -25,6 +24,7 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.geometry import Indenter
 from verification.cases.frictional_pressing import (
     NO_SLIP_BALL,
@@ -240,9 +240,7 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     )
 
 
-def interpolate_profile(
-    one: Indentation, profile: str, r: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def interpolate_profile(one: Indentation, profile: str, r: Field) -> Field:
     """Interpolate the tabulated pressure or shear of an indentation to other distances from the
     axis.
 

@@ -29,7 +29,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from contact_results.directory.atomic_file import Refused
-from verification.challenge.requested_quantities import Answer, Field, Key, Vector
+from contact_scene.array_types import Vector
+from verification.challenge.requested_quantities import Answer, Field, Key
 
 
 class CannotDo(Exception):

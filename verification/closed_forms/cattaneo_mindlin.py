@@ -36,6 +36,8 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
 )
 
+Array = NDArray[np.float64]
+
 # Relative excess of T over µW that counts as T = µW, because both contain rounding errors.
 ROUNDING = 1e-14
 
@@ -119,7 +121,7 @@ class PartialSlip:
         y = 1 - slipped
         return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear on the lower body at distance r from the axis [force/length²].
 
         The shear is parallel to the tangential force, and zero outside the contact.
@@ -131,7 +133,7 @@ class PartialSlip:
         slope = 3 * self.friction_limit / (2 * pi * a**3)
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
-    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+    def slip(self, r: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at distance r from the
         axis [length].
 
@@ -166,11 +168,11 @@ class NormalContact(Protocol):
         """Approach of distant points of the two bodies since first touch [length]."""
 
     @property
-    def pressure(self) -> Callable[..., NDArray[np.float64]]:
+    def pressure(self) -> Callable[..., Array]:
         """Contact pressure as a function of the position, r or (x, y) [force/length²]."""
 
     @property
-    def gap(self) -> Callable[..., NDArray[np.float64]]:
+    def gap(self) -> Callable[..., Array]:
         """Gap of the deformed surfaces as a function of the position, r or (x, y) [length]."""
 
 
@@ -202,7 +204,7 @@ class Superposition:
         """
         return self._signed_state * self.modulus_ratio * (self.full.approach - self.stick.approach)
 
-    def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, *position: ArrayLike) -> Array:
         """Compute the shear on the lower body at a position (r) or (x, y) [force/length²].
 
         Both pressures are infinite at an apex; evaluate the shear at a distance from the apex.
@@ -211,7 +213,7 @@ class Superposition:
             self._signed_state * (self.full.pressure(*position) - self.stick.pressure(*position))
         )
 
-    def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
+    def slip(self, *position: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at a position in contact
         [length].
 
@@ -290,7 +292,7 @@ class GrownContact:
         """Radius of the stick zone, which is the whole contact [length]."""
         return self.contacts[-1].contact_radius
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear Σ k Δp on the lower body at distances r from the axis [force/length²].
 
         p is the pressure at the ends of the load steps.
@@ -360,7 +362,7 @@ class TangentialHistory:
         """Tangential shift of the indenter relative to the body after the load history [length]."""
         return sum(scale * state.shift for scale, state in self.branches())
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear on the lower body at distance r from the axis after the load history
         [force/length²].
         """
@@ -369,7 +371,7 @@ class TangentialHistory:
             total = total + scale * state.shear(r)
         return total
 
-    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+    def slip(self, r: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at distance r from the
         axis [length].
 
@@ -411,7 +413,7 @@ class TangentialHistory:
         return 2 * replace(self.virgin, tangential_force=half).dissipated_energy
 
 
-Values = NDArray[np.float64]
+Values = Array
 
 # Number of radii at which the largest value is searched, dense near the edge, where σ_T > 0.
 PLACES = 20_001

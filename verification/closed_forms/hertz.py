@@ -20,6 +20,8 @@ from scipy.special import elliprd, elliprf
 
 from verification.closed_forms.quadrature import unit_gauss
 
+Array = NDArray[np.float64]
+
 ElasticConstants = tuple[float, float]
 
 
@@ -110,7 +112,7 @@ class PointContact:
         """Pressure at the centre of the Hertz contact, 3W/2πa² = 2E*a/πR [force/length²]."""
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the Hertz pressure at distance r from the axis [force/length²].
 
         The pressure is zero outside the contact.
@@ -120,7 +122,7 @@ class PointContact:
         slope = 2 * self.contact_modulus / (pi * self.radius)
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, r: ArrayLike) -> Array:
         """Compute the gap of the deformed surfaces at distance r from the axis [length].
 
         The gap is r²/2R - approach + displacement, and exactly zero inside the contact.
@@ -197,7 +199,7 @@ class SphereContact:
         """Pressure at the centre of the contact of ball and half-space [force/length²]."""
         return float(self.pressure(0.0))
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the pressure below a ball with its exact arc at distance r from the axis
         [force/length²].
 
@@ -215,7 +217,7 @@ class SphereContact:
             self.contact_modulus / pi * (first + R / depth * np.arctanh(chord / depth))
         )
 
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, r: ArrayLike) -> Array:
         """Compute the gap of the deformed surfaces at distance r from the axis [length].
 
         The gap is zero inside the contact, and infinite beyond the ball radius, where the ball has
@@ -330,7 +332,7 @@ class EllipticalContact:
             self.contact_modulus
         )
 
-    def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Compute the pressure of the elliptical Hertz contact at points (x, y) [force/length²].
 
         The coordinates are broadcast together. The pressure is zero outside the contact ellipse.
@@ -339,7 +341,7 @@ class EllipticalContact:
         room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
 
-    def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Compute the normal surface displacement of both bodies together at points (x, y)
         [length].
 
@@ -363,7 +365,7 @@ class EllipticalContact:
         scale = self._pressure_slope * a2 * self.semi_axes[1] / self.contact_modulus
         return np.asarray(scale * potential)
 
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def gap(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Compute the gap of the deformed surfaces at points (x, y) [length].
 
         The gap is zero to rounding inside the contact.

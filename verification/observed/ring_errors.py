@@ -9,9 +9,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from contact_scene.array_types import Field
 from semi_analytical.grid import SurfaceGrid
 
 if TYPE_CHECKING:
@@ -93,7 +93,6 @@ def is_corrected(increment: Any) -> bool:
     return report is not None and report.cause is None
 
 
-Field = NDArray[np.float64]
 SHOWN = 1.1  # largest radius of charts and integrals, in contact radii
 IN_ELEMENT = 40  # integration points per element
 

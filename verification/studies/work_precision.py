@@ -10,10 +10,10 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 from contact_results.surface import surface_of
+from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid
@@ -83,7 +83,6 @@ from verification.running.study import (
     value_of,
 )
 
-Field = NDArray[np.float64]
 Errors = Mapping[str, float]
 
 SHEARED = 0.9  # of µW

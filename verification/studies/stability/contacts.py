@@ -14,7 +14,6 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 import fem_reference
 from contact_scene import (
@@ -33,6 +32,7 @@ from contact_scene import (
     Scene,
     SceneError,
 )
+from contact_scene.array_types import Field
 from contact_scene.solver_errors import (
     GrossSliding,
     NotConverged,
@@ -721,8 +721,6 @@ def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
                 LoadStep(approach=0.5 * loads.approach, increments=2),
             )
 
-
-Field = NDArray[np.float64]
 
 RADIUS = 46.4  # of the ball, over the contact radius: the paper's
 SLOPE = 0.02
