@@ -368,7 +368,7 @@ def contacts(level: Level) -> tuple[Contact, ...]:
     )
 
 
-def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> Case:
+def cross_check(level: Level = Level.QUICK) -> Case:
     """Create the verification case that compares the three solvers on equal coated contacts.
 
     Judged are the differences of tractions, approach, stick area and shift between every two
@@ -376,9 +376,8 @@ def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> 
     contact.
 
     level  amount of computation: quick, standard or full
-    given  contacts to solve; default: those of the level
     """
-    chosen = given or contacts(level)
+    chosen = contacts(level)
     first = chosen[0]
     return case(
         "cross_check",

@@ -6,7 +6,7 @@ figures 1 and 2 of the reference paper.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -398,19 +398,17 @@ def _cycle_rows() -> tuple[Row, ...]:
     return tuple(replace(row, each=True) for row in rows)
 
 
-def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter: int = 4) -> Case:
+def fretting_loop(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a fretting loop of a ball with ν = 0, on cells.
 
     For ν = 0 the closed form of Mindlin and Deresiewicz is exact. Judged are tractions, slip,
     shift, energies and Ruiz's fretting parameters on the two grids with accuracy targets. The full
     level adds a finer grid.
 
-    level    amount of computation: quick, standard or full
-    cells    numbers of cells per side; default: those of the level
-    quarter  number of increments from zero to the largest tangential force
+    level  amount of computation: quick, standard or full
     """
-    cells = cells or ((128, 256, 512) if level is Level.FULL else (128, 256))
-    problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
+    cells = (128, 256, 512) if level is Level.FULL else (128, 256)
+    problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter=4)
     grids, wide = on_cells(problem, cells, FRETTING_WINDOW), on_cells(problem, cells[:1])
     on_wide_window = Reported(
         LARGEST_SHEAR_ERROR,
@@ -619,30 +617,22 @@ def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption
     return draw
 
 
-def fem_partial_slip(
-    level: Level = Level.QUICK,
-    elements: int = 0,
-    studied: Sequence[tuple[int, float]] | None = None,
-) -> Case:
+def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """Create the verification case of partial slip and of a fretting loop by finite elements.
 
     Shift, stick radius, dissipated energy and shear are compared with closed forms. Above the quick
     level the orders of convergence are judged for a single tangential loading with ν = 0.
 
-    level     amount of computation: quick, standard or full
-    elements  number of elements per contact radius for the loop; 0: that of the level
-    studied   meshes for the orders of convergence: number of elements per radius, and position of
-              the contact edge within its element; default: those of the level
+    level  amount of computation: quick, standard or full
     """
-    orders = bool(studied) or level is not Level.QUICK
-    if studied is None:
-        # The positions of the stick edges in their elements depend on the mesh as well.
-        studied = order_levels(level, per_octave=10)
+    orders = level is not Level.QUICK
+    # The positions of the stick edges in their elements depend on the mesh as well.
+    studied = order_levels(level, per_octave=10)
     once = sheared(
         "Two alike bodies with ν = 0 sheared once, by finite elements", tuple(STOPPED.values())
     )
-    mesh = on_elements(LOOP, (elements or finest(level),), over=0.97)
-    shearing = [with_edge_at(once, (), studied, "sheared once")] if studied else []
+    mesh = on_elements(LOOP, (finest(level),), over=0.97)
+    shearing = with_edge_at(once, (), studied, "sheared once")
     listed = "0.3, 0.45, 0.6, 0.75 and 0.9 µW"
     also_by_cells = {step: part for step, part in STOPPED.items() if part in (0.3, 0.6, 0.9)}
     rows: tuple[Row, ...] = (
@@ -684,6 +674,16 @@ def fem_partial_slip(
         "a fifth of an element: the edge is extrapolated from the last values, which an older "
         "edge nearby disturbs",
     )
+    of_orders = (
+        convergence(
+            shearing,
+            falls,
+            "fem_partial_slip_convergence",
+            "Convergence under a tangential force",
+            f"Errors at {listed}, root mean square, against the side of an element over the "
+            "contact radius.",
+        ),
+    )
     return case(
         "fem_partial_slip",
         "Finite elements: fretting loop",
@@ -694,7 +694,7 @@ def fem_partial_slip(
         f"judged for a single loading with stops at {listed}, for ν = 0: there is no slip across "
         "the load, and the closed form is exact.",
         judged(mesh, (*OF_LOOP, stick_of_loop)),
-        *(judged(one, (*rows, *falls) if orders else rows) for one in shearing),
+        judged(shearing, (*rows, *falls) if orders else rows),
         charts=(
             *(
                 _loop_profile(
@@ -710,18 +710,7 @@ def fem_partial_slip(
                     (LOADED + 1, "reversed", "-0.9"),
                 )
             ),
-            *(
-                convergence(
-                    one,
-                    falls,
-                    "fem_partial_slip_convergence",
-                    "Convergence under a tangential force",
-                    f"Errors at {listed}, root mean square, against the side of an element over "
-                    "the contact radius.",
-                )
-                for one in shearing
-                if orders
-            ),
+            *(of_orders if orders else ()),
         ),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",

@@ -7,7 +7,7 @@ increments.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import atanh, exp, log, sqrt
@@ -630,34 +630,27 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     )
 
 
-def sheared_increments(
-    level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
-) -> Case:
+def sheared_increments(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a rigid ball that is pressed and pushed in more and more
     increments.
 
     Pressure and shear are coupled, and no exact solution is known. Judged is the rate at which
     shift, shear and approach change with smaller increments.
 
-    level       amount of computation: quick, standard or full
-    increments  numbers of increments per load step; default: those of the level; orders of
-                convergence need five or more numbers
-    cells       number of cells per side
+    level  amount of computation: quick, standard or full
     """
-    counts = (
-        increments
-        or {
-            Level.QUICK: (4, 8),
-            Level.STANDARD: (4, 8, 16, 32, 64, 128),
-            Level.FULL: (4, 8, 16, 32, 64, 128, 256),
-        }[level]
-    )
+    cells = 48
+    counts = {
+        Level.QUICK: (4, 8),
+        Level.STANDARD: (4, 8, 16, 32, 64, 128),
+        Level.FULL: (4, 8, 16, 32, 64, 128, 256),
+    }[level]
     part = 0.5  # of µW
     push = (part * HALF.friction * NORMAL_FORCE, 0.0)
     grid = square_grid(cells, WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
     scene = HALF.problem(1).scene
     # Orders of the increments are judged without edge correction, whose changes are up to 1e-6.
-    several = len(counts) >= 5
+    several = level is not Level.QUICK
     edge: EdgeCorrection = "off" if several else "last"
     runs = tuple(
         Run(

@@ -446,7 +446,7 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
         return None
 
 
-def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
+def coupled_history(level: Level = Level.QUICK) -> Case:
     """Create the verification case of tangential loops, turns and unloading with coupled pressure
     and shear.
 
@@ -454,16 +454,12 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     under prescribed displacements, and with finite elements.
 
     level  amount of computation: quick, standard or full
-    sizes  numbers of cells per side, elements per radius and harmonics; default: those of the level
     """
-    cells, elements, harmonics = (
-        sizes
-        or {
-            Level.QUICK: (32, 16, 4),
-            Level.STANDARD: (64, 32, 8),
-            Level.FULL: (128, 64, 12),
-        }[level]
-    )
+    cells, elements, harmonics = {
+        Level.QUICK: (32, 16, 4),
+        Level.STANDARD: (64, 32, 8),
+        Level.FULL: (128, 64, 12),
+    }[level]
     bare = CoupledContact("homogeneous, µ = 0.3", Body(material=SUBSTRATE), 0.3)
     filmed = CoupledContact("coated, µ = 0.1", FILMED, 0.1)
     runs = [bare.run(cells), bare.run(cells, 30.0), bare.run(cells, 90.0)]

@@ -39,7 +39,6 @@ from verification.judging.declared_case import (
     FORCE,
     IDENTITY,
     JUDGED_BY,
-    MIDDLE,
     PEAK_PRESSURE,
     PENALTY,
     PRESSURE_L1,
@@ -531,26 +530,16 @@ ON_MESHES = (
 )
 
 
-def fem_hertz(
-    level: Level = Level.QUICK,
-    elements: Sequence[int] = (),
-    studied: Sequence[tuple[int, float]] = (),
-) -> Case:
+def fem_hertz(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the Hertz contact of a ball by finite elements on many
     meshes.
 
     Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
     orders of convergence are judged.
 
-    level     amount of computation: quick, standard or full
-    elements  numbers of elements per contact radius; default: those of the level
-    studied   meshes for the orders of convergence: number of elements per radius, and position of
-              the contact edge within its element; default: those of the level, or the meshes of
-              `elements` up to 64 per radius
+    level  amount of computation: quick, standard or full
     """
-    studied = studied or (() if elements else order_levels(level))
-    elements = elements or levels(level)
-    meshes = with_edge_at(BALL, elements, studied or [(n, MIDDLE) for n in elements if n <= 64])
+    meshes = with_edge_at(BALL, levels(level), order_levels(level))
     return case(
         "fem_hertz",
         "Finite elements: Hertz point contact",
