@@ -21,8 +21,8 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import (
     PEERS,
+    installed_version,
     make_answer_function,
-    peers_environment,
 )
 from verification.running.study import (
     CaseRecord,
@@ -90,12 +90,8 @@ class ScoredRun:
             solver = replace(solver, version=program_version())
             return judge(self.challenge, answer, self.levels, solver=solver, seconds=None)
         (peer,) = (peer for peer in PEERS if peer.name == self.code)
-        installed = peers_environment()
-        if reason := installed.missing.get(peer.distribution):
-            raise CannotDo(f"could not be installed: {reason}")
-        solve = make_answer_function(installed.python, peer)
-        version = peer.distribution.partition("==")[2]
-        described = Solver(peer.name, version)
+        described = Solver(peer.name, installed_version(peer.module))
+        solve = make_answer_function(peer)
         return judge(self.challenge, solve, self.levels, solver=described, seconds=None)
 
 
