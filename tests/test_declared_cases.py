@@ -103,7 +103,6 @@ LONG = (
     "eccentric_contact",
     "exchanged_bodies",
     "external_codes",
-    "fem_coated",
     "fem_far_field",
     "fem_harmonics",
     "fem_hertz",
