@@ -14,7 +14,7 @@ from surface_quadrature import normal_displacement, tangential_displacement
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from verification.cases.frictional_pressing import stick_ratio
-from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip, superpose
+from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     paraboloid_under,
@@ -209,30 +209,9 @@ def test_stick_zone_moves_rigidly_for_every_poisson_ratio(ratio, nu):
         assert across == pytest.approx(0, abs=1e-9 * state.shift)
 
 
-# ---- Superposition for other profiles
-
-CONTACTS = {
-    "paraboloid": lambda load: PointContact.under_load(load, BALL_RADIUS, E_ALIKE),
-    "sphere": lambda load: SphereContact.under_load(load, BALL_RADIUS, E_ALIKE),
-    "cone": lambda load: ConeContact.under_load(load, 0.2, E_ALIKE),
-}
-
-
-@pytest.mark.parametrize("name", CONTACTS)
-@pytest.mark.parametrize("ratio", [0.3, -0.9])
-def test_superposed_shear_carries_the_force(name, ratio):
-    state = superpose(CONTACTS[name], LOAD, ratio * LIMIT, MU, E_ALIKE / G_STAR)
-    a, c = state.full.contact_radius, state.stick.contact_radius
-    assert disc_integral(state.shear, a, [c]) == pytest.approx(ratio * LIMIT, rel=1e-8)
-    r = a * np.linspace(0.01, 1, 60)
-    assert np.all(np.abs(state.shear(r)) <= MU * state.full.pressure(r) * (1 + 1e-12))
-    assert np.all(state.slip(r) * state.shear(r) <= 0)
-    assert np.all(state.slip(r[r < c]) == 0)
-
-
 def test_growth_without_slip_carries_the_force_within_the_limit():
     """Also after a growing and a falling tangential force; equal rates are one step."""
-    half, full = CONTACTS["paraboloid"](LOAD / 2), CONTACTS["paraboloid"](LOAD)
+    half, full = (PointContact.under_load(part * LOAD, BALL_RADIUS, E_ALIKE) for part in (0.5, 1.0))
     rates = 0.7 * MU, -0.9 * MU
     grown = GrownContact((half, full), rates, E_ALIKE / G_STAR)
     force = disc_integral(grown.shear, full.contact_radius, [half.contact_radius])
