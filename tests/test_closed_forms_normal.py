@@ -52,7 +52,7 @@ def integral(function, start, end):
 
 @pytest.mark.parametrize("name", PROFILES)
 @pytest.mark.parametrize("a", [1e-3, 0.4, 2.0])
-def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
+def test_integrals_of_the_profile_give_load_approach_and_pressure(name, a):
     """Galin 1946; Sneddon 1965."""
     make, slope, curvature = PROFILES[name]
     closed = make(a)
@@ -74,20 +74,12 @@ def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
             lambda u, r=r: rate(np.hypot(r, u)) / np.hypot(r, u), 0, np.sqrt(a**2 - r**2)
         )
         assert E_STAR / np.pi * pressure == pytest.approx(float(closed.pressure(r)), rel=1e-9)
-    for r in (1.01 * a, 1.4 * a):
-        gap = integral(
-            lambda t, r=r: penetration(r * np.sin(t)) - closed.approach,
-            np.arcsin(a / r),
-            np.pi / 2,
-        )
-        assert 2 / np.pi * gap == pytest.approx(float(closed.gap(r)), rel=1e-8)
 
 
 def test_a_flat_punch_has_its_load_and_stiffness():
     punch = FlatPunchContact.under_load(0.8, 0.9, E_STAR)
     assert disc_integral(punch.pressure, 0.9) == pytest.approx(0.8, rel=1e-6)
     assert punch.approach == pytest.approx(0.8 / (2 * E_STAR * 0.9))
-    np.testing.assert_array_equal(punch.gap([0.9, 0.91]), [0.0, np.inf])
 
 
 # ---- Elliptical contact
@@ -100,7 +92,6 @@ def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
     expected = contact.approach - x**2 / 8 - y**2 / 3
     by_quadrature = normal_displacement(contact.pressure, (x, y), [contact.semi_axes], E_STAR)
     assert by_quadrature == pytest.approx(expected, rel=1e-11)
-    assert contact.surface_displacement(x, y) == pytest.approx(expected, rel=1e-13)
 
 
 ROWS = load_reference("coated_frictionless_paraboloid")["rows"]

@@ -57,14 +57,6 @@ class FlatPunchContact:
         """
         return _rim_singular(self.load, self.contact_radius, r)
 
-    def gap(self, r: ArrayLike) -> Array:
-        """Return the gap between punch and half-space at distance r from the axis [length].
-
-        The gap is zero under the punch and infinite outside, where the punch has no surface.
-        """
-        rho = np.abs(np.asarray(r, dtype=float))
-        return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
-
 
 def _rim_singular(force: float, a: float, r: ArrayLike) -> Array:
     rho = np.abs(np.asarray(r, dtype=float))
@@ -177,14 +169,3 @@ class ConeContact:
         with np.errstate(divide="ignore"):
             ratio = np.divide(a, rho, out=np.ones_like(rho), where=inside)
         return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
-
-    def gap(self, r: ArrayLike) -> Array:
-        """Compute the gap between cone and deformed half-space at distance r from the axis
-        [length].
-
-        The gap is tan(slope) [√(r²-a²) - a arccos(a/r)], and zero inside the contact radius a.
-        """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        outside = np.maximum(rho, a)
-        root = np.sqrt((outside - a) * (outside + a))
-        return np.asarray(tan(self.slope_angle) * (root - a * np.arctan2(root, a)))
