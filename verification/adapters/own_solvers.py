@@ -175,8 +175,8 @@ def field_between_rings(end: Any, traction: Vector) -> Field:
 
 
 def answer_on_elements(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with finite elements, 16 per contact radius on level 0,
-    doubled at each level.
+    """Solve a challenge with finite elements, 16 per contact radius on level 0, doubled at each
+    level.
 
     Raises CannotDo if the finite elements do not support the scene.
     """
@@ -195,8 +195,7 @@ def answer_on_elements(posed: Posed, level: int) -> Answer:
 
 
 def answer_on_radii(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the radial solver, with 32 rings on level 0,
-    doubled at each level.
+    """Solve a challenge with the radial solver, with 32 rings on level 0, doubled at each level.
 
     Raises CannotDo if the radial solver does not support the scene.
     """
@@ -246,8 +245,8 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Solve a benchmark problem (challenge) of surface displacements by a uniform traction on a
-    square, without contact.
+    """Solve a challenge of surface displacements by a uniform traction on a square, without
+    contact.
 
     The square is one cell and the points are centres of other cells. The displacements are
     therefore influence coefficients times the traction.
@@ -266,8 +265,7 @@ def under_a_patch(posed: Posed) -> Answer:
 
 
 def answer_on_cells(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the semi-analytical solver without edge correction
-    of the pressure.
+    """Solve a challenge with the semi-analytical solver without edge correction of the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level. A load history that does not
     converge is reported in the answer; other errors of the solver are raised.
@@ -276,8 +274,7 @@ def answer_on_cells(posed: Posed, level: int) -> Answer:
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the semi-analytical solver with edge correction of
-    the pressure.
+    """Solve a challenge with the semi-analytical solver with edge correction of the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level.
     """

@@ -151,8 +151,6 @@ def coated_paraboloid(level: Level = Level.QUICK) -> Case:
 
     Approach, central pressure and contact radius are compared with semi-closed solutions. For one
     coating the convergence under refinement of the cells is judged.
-
-    level  amount of computation: quick, standard or full
     """
     most = 256 * 2**level
     cells = refinement(32, most)
@@ -294,8 +292,6 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
 
     A rigid ball is pressed on the coated body, on cells and by finite elements. Approach, contact
     radius and central pressure are compared with a semi-closed solution.
-
-    level  amount of computation: quick, standard or full
     """
     n = finest(level)
     on_grid = (
@@ -358,8 +354,6 @@ def compliant_bond(level: Level = Level.QUICK) -> Case:
 
     A rigid ball is pressed on the coated body, on cells and by the radial solver. Approach, contact
     radius and central pressure are compared with a semi-closed solution.
-
-    level  amount of computation; all levels are equal
     """
     del level
     on_grid = (
@@ -412,8 +406,6 @@ def layered_identities(level: Level = Level.QUICK) -> Case:
     Examples are a coated ball on a rigid body instead of a rigid ball on a coated body, and one
     coating that is divided into three layers. Homogeneous bodies that are described as coated are
     included.
-
-    level  amount of computation; all levels are equal
     """
     cells, coating = 128, film(2.0, 1.0)
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
@@ -607,8 +599,6 @@ def thin_layer(level: Level = Level.QUICK) -> Case:
     Normal force, central pressure and contact radius on cells are compared with semi-closed
     solutions. Two layers are compressible and behave nearly as an elastic foundation; one is
     incompressible.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 256 if level is Level.QUICK else 512
     layers = (
@@ -670,8 +660,6 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
     Approach, contact radius and pressure of a ball, a cone, a flat punch and coated bodies are
     compared with closed forms and with solutions of integral equations. Above the quick level each
     contact is also solved with twice the number of polynomials and points.
-
-    level  amount of computation: quick, standard or full
     """
     why = "both have rounding errors, of which forty times are allowed; 1e-10 was the target"
     of_pressure = error_norm(

@@ -354,8 +354,6 @@ def contacts(level: Level) -> tuple[Contact, ...]:
 
     The last contact has a tangential load, the others are pressed only. The full level has every
     combination of modulus ratio, coating thickness and friction.
-
-    level  amount of computation: quick, standard or full
     """
     chosen, cells, elements, harmonics = {
         Level.QUICK: (FEW_CONTACTS, 96, 32, 8),
@@ -374,8 +372,6 @@ def cross_check(level: Level = Level.QUICK) -> Case:
     Judged are the differences of tractions, approach, stick area and shift between every two
     solvers. The subsurface stress on cells and on finite elements is compared for the first
     contact.
-
-    level  amount of computation: quick, standard or full
     """
     chosen = contacts(level)
     first = chosen[0]
@@ -645,8 +641,6 @@ def external_codes(level: Level = Level.QUICK) -> Case:
 
     The contacts are a rigid ball on a coating, with and without friction. Normal force, pressure
     and shear are judged.
-
-    level  amount of computation: quick, standard or full, with finer grids and meshes
     """
     sizes = ((128, 32), (256, 64), (512, 64))[level]
     return case(

@@ -404,8 +404,6 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
     For ν = 0 the closed form of Mindlin and Deresiewicz is exact. Judged are tractions, slip,
     shift, energies and Ruiz's fretting parameters on the two grids with accuracy targets. The full
     level adds a finer grid.
-
-    level  amount of computation: quick, standard or full
     """
     cells = (128, 256, 512) if level is Level.FULL else (128, 256)
     problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter=4)
@@ -441,8 +439,6 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
 
     The ball has its exact circular arc, ν is 0.3, and the increments are those of the paper. The
     closed form is only approximate for ν > 0, so that the tolerances are wide.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 128 if level is Level.QUICK else 256
     band = (
@@ -622,8 +618,6 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
 
     Shift, stick radius, dissipated energy and shear are compared with closed forms. Above the quick
     level the orders of convergence are judged for a single tangential loading with ν = 0.
-
-    level  amount of computation: quick, standard or full
     """
     orders = level is not Level.QUICK
     # The positions of the stick edges in their elements depend on the mesh as well.
@@ -723,8 +717,6 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
 
     A fretting loop and a ball in torsion are compared with closed forms. The penalty method allows
     a small elastic slip before Coulomb's law is applied.
-
-    level  amount of computation: quick, standard or full
     """
     gauss = "Shear at the Gauss points, the closed form, and their difference."
     n = (finest(level),)
@@ -815,8 +807,6 @@ def growing_loads(level: Level = Level.QUICK) -> Case:
     Normal and tangential load are prescribed as forces and as displacements. The shear follows the
     pressure, and one increment of each load step is exact. Judged are shear, force, shift, stick
     radius and dissipated energy on cells, elements and rings.
-
-    level  amount of computation: quick, standard or full
     """
     fine = level is not Level.QUICK
     cells, elements = 128 if fine else 64, 32 if fine else 16

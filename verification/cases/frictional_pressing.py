@@ -257,8 +257,6 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     Pressure and shear are coupled. Approach, contact radius, pressure and shear on cells are
     compared with tabulated solutions of integral equations. The quick level has a coarse grid; the
     other levels judge the stick radius in addition.
-
-    level  amount of computation: quick, standard or full
     """
     why = "accuracy target of the coupled solver on 256 x 256 cells"
     cells, contacts = 256, [WEAK, STRONG, NO_POISSON_BALL, COATED]
@@ -515,8 +513,6 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     At the quick level, approach and stick radius are extrapolated from two runs and compared with
     Spence's solution. Other levels also judge the orders of convergence in the cells and in the
     increments.
-
-    level  amount of computation: quick, standard or full
     """
     few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
     # Changes are taken over two levels: a factor of 2 in cells or increments. Grids divide the
@@ -636,8 +632,6 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
 
     Pressure and shear are coupled, and no exact solution is known. Judged is the rate at which
     shift, shear and approach change with smaller increments.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 48
     counts = {
@@ -761,8 +755,6 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
 
     Friction is so large that no cell slips, which makes the contact stiffer. The effect on the
     approach is compared with closed forms. The ball is added above the quick level.
-
-    level  amount of computation: quick, standard or full
     """
     few, many = 20, 40
     grid = square_grid(96, 1.2 * HERTZ.contact_radius)
@@ -870,8 +862,6 @@ def spence_example(level: Level = Level.QUICK) -> Case:
     The example is Spence's problem: a rigid paraboloid is pressed with friction, and half of the
     contact radius sticks. It is solved on the published grid and compared with the published
     numbers.
-
-    level  amount of computation; all levels are equal
     """
     # The units of CONTACT are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
@@ -967,8 +957,6 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
     Approach, contact radius, pressure and shear of a rigid ball on homogeneous and coated bodies
     are compared with tabulated solutions of integral equations.
-
-    level  amount of computation: quick, standard or full
     """
     n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
@@ -1079,8 +1067,6 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
 
     Coulomb's law is integrated by return mapping: a trial shear is scaled back to the friction
     limit. Approach, contact radius, pressure and shear are compared with tabulated solutions.
-
-    level  amount of computation: quick, standard or full
     """
     rows = (
         Within(APPROACH, 1e-3, PENALTY),

@@ -452,8 +452,6 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
 
     No closed form exists. The histories on cells are compared with a rotated history, with a solve
     under prescribed displacements, and with finite elements.
-
-    level  amount of computation: quick, standard or full
     """
     cells, elements, harmonics = {
         Level.QUICK: (32, 16, 4),
@@ -610,8 +608,6 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
     The inputs are height maps, friction maps, rectangular cells, and layers of the base material.
     All must give equal results.
-
-    level  amount of computation: quick, standard or full
     """
     # An odd number of cells has a central cell, in which the height of the ball is zero.
     cells = 32 * 2**level + 1
@@ -775,8 +771,6 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
 
     The solver omits effects that a scene does not need, such as the coupling of pressure and shear
     for equal bodies. Each scene is solved with and without the omission; the results must be equal.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 48 if level is Level.QUICK else 96
     grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
@@ -892,8 +886,6 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
 
     A reflection maps one contact to the other, so that the results must be equal. Cells, finite
     elements and the radial solver are judged.
-
-    level  amount of computation: quick, standard or full
     """
     source = (
         "a reflection in the contact plane exchanges the bodies and reverses the tangential "
@@ -1019,8 +1011,6 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
     Judged are the prescribed quantity in every increment and the number of increments. While the
     ball is pressed, force and approach are compared with Hertz theory.
-
-    level  amount of computation: quick, standard or full
     """
     ball, limit = paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
@@ -1149,8 +1139,6 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
     A flat punch under normal force, tangential force and torque is solved on a small and a large
     mesh. The motions must agree, because the boundary moves as a half-space under the resultant
     load.
-
-    level  amount of computation: quick, standard or full
     """
     near, far = 5.0, 100.0  # box over radius
     push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips

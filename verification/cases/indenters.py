@@ -205,8 +205,6 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a ball with its exact circular arc instead of a paraboloid.
 
     Approach, peak pressure and contact radius on cells are compared with Sneddon's solution.
-
-    level  amount of computation: quick, standard or full
     """
     ball, load = Sphere(radius=RADIUS, material=STEEL), pressing()
     problem = Problem(
@@ -317,8 +315,6 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
     Without friction the history has no effect. The end state is compared with Hertz theory, and for
     coated bodies with a single loading by the smaller force.
-
-    level  amount of computation: quick, standard or full
     """
     cells, elements = {
         Level.QUICK: (128, 32),
@@ -459,8 +455,6 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
 
     Approach, peak pressure, mean contact radius and pressure on rectangular cells are compared with
     the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     mean_radius = replace(
         CONTACT_RADIUS,
@@ -536,8 +530,6 @@ def fem_hertz(level: Level = Level.QUICK) -> Case:
 
     Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
     orders of convergence are judged.
-
-    level  amount of computation: quick, standard or full
     """
     meshes = with_edge_at(BALL, levels(level), order_levels(level))
     return case(
@@ -586,8 +578,6 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
 
     The penalty allows the surfaces to overlap. Judged are the error that the overlap causes, and
     the results after one augmentation, which removes the overlap.
-
-    level  amount of computation: quick, standard or full, with finer meshes at higher levels
     """
     elements, factor = finest(level), 10.0
     mesh = with_edge_at(BALL, (elements,))
@@ -653,8 +643,6 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     apex.
 
     Approach, contact radius and pressure on cells are compared with the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(CONE, cells)
@@ -702,8 +690,6 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
     the rim.
 
     Approach and central pressure on cells are compared with the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
@@ -794,8 +780,6 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
 
     Tilt, approach and pressure are compared with the closed form. Prescribed moment and prescribed
     tilt must give equal stiffnesses.
-
-    level  amount of computation: quick, standard or full
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
@@ -910,8 +894,6 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
     The ball rolls until the contact lies below the force. Motion and tractions must be those of a
     central contact that is shifted by whole cells.
-
-    level  amount of computation: quick, standard or full
     """
     cells, increments = 64 if level is Level.QUICK else 128, 5
     source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
@@ -1038,8 +1020,6 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
 
     Approach, contact radius and pressure are compared with closed forms. The order of convergence
     of the central pressure of the punch is judged above the quick level.
-
-    level  amount of computation: quick, standard or full
     """
     why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
     rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"

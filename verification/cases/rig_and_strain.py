@@ -317,8 +317,6 @@ def series_spring(level: Level = Level.QUICK) -> Case:
 
     Force, shift, dissipated energy and loop numbers are compared with the closed form of a contact
     in series with a spring, for ν = 0.
-
-    level  amount of computation: quick, standard or full
     """
     problem = _spring_loop_problem()
     why = "set by hand: error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 µW"
@@ -415,8 +413,6 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
     Force and strain grow in proportion, so that the stick zone is eccentric. Shear, shift, energy,
     size and centre of the stick zone are compared with the closed form. The order of convergence of
     the shear is judged.
-
-    level  amount of computation: quick, standard or full
     """
     most = (128, 192, 256)[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
@@ -527,8 +523,6 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
 
     Stick radius and dissipated energy of all solvers and contact methods are compared with stored
     reference numbers. The stress that a strain adds in a coated body is judged as well.
-
-    level  amount of computation: quick, standard or full
     """
     known = load_reference("strained_ball")
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])

@@ -34,8 +34,7 @@ from verification.challenge.requested_quantities import Answer, Field, Key
 
 
 class CannotDo(Exception):
-    """Exception that a solver function raises for a benchmark problem (challenge) outside its
-    scope."""
+    """Exception that a solver function raises for a challenge outside its scope."""
 
 
 @dataclass(frozen=True)

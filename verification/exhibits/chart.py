@@ -108,7 +108,6 @@ def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...
 
 
 HEIGHT = 2.4
-BELOW = 0.6  # slope lines run under the data, by this factor
 
 Points = Sequence[tuple[float, float]]
 

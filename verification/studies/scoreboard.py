@@ -64,8 +64,7 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """File name of the record of the judgement: the code and the benchmark problem
-        (challenge)."""
+        """File name of the record of the judgement: the code and the challenge."""
         return "".join(c if c.isalnum() else "-" for c in f"{self.code}-{self.challenge}")
 
     def compute(self) -> CaseRecord:
@@ -96,7 +95,7 @@ class ScoredRun:
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Return the cases of the study: each code on each benchmark problem (challenge)."""
+    """Return the cases of the study: each code on each challenge."""
     codes = (*OURS, *(peer.name for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())

@@ -54,7 +54,6 @@ from verification.norms import round_means
 from verification.problems.cattaneo_mindlin import (
     FRETTING_WINDOW,
     OVER_LIMIT,
-    ExactLoop,
     fretting_loop_problem,
     sheared,
 )
@@ -86,8 +85,6 @@ from verification.running.study import (
 Errors = Mapping[str, float]
 
 SHEARED = 0.9  # of µW
-LOOPED = ExactLoop(NU_ZERO)
-LARGEST = LOOPED.end.shift
 QUARTER = 3  # increments from T = 0 to the largest
 JUDGED = (0.1 - 1e-9, 0.9 + 1e-9)  # part of the radius where the tractions under friction are
 

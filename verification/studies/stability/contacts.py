@@ -108,8 +108,6 @@ class Solver(StrEnum):
 class StabilityCell:
     """One contact of the stability map, as plain values from which its scene is built.
 
-    The stability map shows which contacts the solvers can solve.
-
     friction        coefficient of friction µ
     push            tangential force T over µW
     modulus_ratio   E1/E2, Young's modulus of the coating over that of the substrate
@@ -761,8 +759,7 @@ class Posed:
 def pose(cell: StabilityCell) -> Posed:
     """Build the scene and the discretisation of a contact of the stability map.
 
-    The stability map shows which contacts the solvers can solve. Raises SceneError for an invalid
-    scene.
+    Raises SceneError for an invalid scene.
 
     cell  values that define the contact
     """
@@ -1006,9 +1003,8 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 def judge_contact(cell: StabilityCell) -> CellRecord:
     """Solve a contact of the stability map and return its verdict, residuals and cost.
 
-    The stability map shows which contacts the solvers can solve. Errors of the scene or the solver
-    become verdicts and are not raised. A result whose residuals exceed the allowed values is wrong
-    without a message.
+    Errors of the scene or the solver become verdicts and are not raised. A result whose residuals
+    exceed the allowed values is wrong without a message.
     """
     try:
         posed = pose(cell)
