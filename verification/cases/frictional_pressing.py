@@ -14,6 +14,7 @@ from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import map_coordinates
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
@@ -173,27 +174,16 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
     the other grid are no substitute: they have a first-order error on the whole surface.
 
     cells  numbers of cells of the other grid along x and y
-    field  values at the cell centres of the first grid (…, n, m)
+    field  values at the cell centres of the first grid (components, n, m)
     """
-    along_x = _interpolation_weights(cells[0], field.shape[-2])
-    along_y = _interpolation_weights(cells[1], field.shape[-1])
-    return np.asarray(along_x @ field @ along_y.T)
-
-
-def _interpolation_weights(to: int, of: int) -> Field:
-    """Compute the matrix (to, of) of linear interpolation between the cell centres of two 1-D
-    divisions.
-
-    A unit length is divided into `of` equal cells with known values and into `to` equal cells of
-    the result. Beyond the outermost known centres the interpolated value is constant.
-    """
-    position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
-    left = np.minimum(position.astype(int), max(of - 2, 0))
-    weights = np.zeros((to, of))
-    rows = np.arange(to)
-    weights[rows, left] = 1 - (position - left)
-    weights[rows, np.minimum(left + 1, of - 1)] += position - left
-    return weights
+    places = (
+        (np.arange(to) + 0.5) * of / to - 0.5
+        for to, of in zip(cells, field.shape[-2:], strict=True)
+    )
+    at = np.meshgrid(*places, indexing="ij")
+    # Beyond the outermost centres the value is constant.
+    found = [map_coordinates(one, at, order=1, mode="nearest") for one in field]
+    return np.stack(found)
 
 
 ONE = "1"
