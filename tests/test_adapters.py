@@ -132,6 +132,12 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
     }
 
 
+def test_a_code_has_the_version_of_its_interpreter_or_is_left_out() -> None:
+    assert environment.installed_version("numpy") == np.__version__
+    with pytest.raises(CannotDo, match="no_such_code is not installed for "):
+        environment.installed_version("no_such_code")
+
+
 def test_a_tilt_closes_the_gap_of_other_codes_at_positive_y_and_x() -> None:
     """A tilted paraboloid is a shifted one, in their units too."""
     posed_ball = posed("tilted_ball")

@@ -14,7 +14,7 @@ from surface_quadrature import normal_displacement, tangential_displacement
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from verification.cases.frictional_pressing import stick_ratio
-from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip, superpose
+from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     paraboloid_under,
@@ -52,7 +52,7 @@ def integral(function, start, end):
 
 @pytest.mark.parametrize("name", PROFILES)
 @pytest.mark.parametrize("a", [1e-3, 0.4, 2.0])
-def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
+def test_integrals_of_the_profile_give_load_approach_and_pressure(name, a):
     """Galin 1946; Sneddon 1965."""
     make, slope, curvature = PROFILES[name]
     closed = make(a)
@@ -74,20 +74,12 @@ def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
             lambda u, r=r: rate(np.hypot(r, u)) / np.hypot(r, u), 0, np.sqrt(a**2 - r**2)
         )
         assert E_STAR / np.pi * pressure == pytest.approx(float(closed.pressure(r)), rel=1e-9)
-    for r in (1.01 * a, 1.4 * a):
-        gap = integral(
-            lambda t, r=r: penetration(r * np.sin(t)) - closed.approach,
-            np.arcsin(a / r),
-            np.pi / 2,
-        )
-        assert 2 / np.pi * gap == pytest.approx(float(closed.gap(r)), rel=1e-8)
 
 
 def test_a_flat_punch_has_its_load_and_stiffness():
     punch = FlatPunchContact.under_load(0.8, 0.9, E_STAR)
     assert disc_integral(punch.pressure, 0.9) == pytest.approx(0.8, rel=1e-6)
     assert punch.approach == pytest.approx(0.8 / (2 * E_STAR * 0.9))
-    np.testing.assert_array_equal(punch.gap([0.9, 0.91]), [0.0, np.inf])
 
 
 # ---- Elliptical contact
@@ -100,7 +92,6 @@ def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
     expected = contact.approach - x**2 / 8 - y**2 / 3
     by_quadrature = normal_displacement(contact.pressure, (x, y), [contact.semi_axes], E_STAR)
     assert by_quadrature == pytest.approx(expected, rel=1e-11)
-    assert contact.surface_displacement(x, y) == pytest.approx(expected, rel=1e-13)
 
 
 ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
@@ -209,30 +200,9 @@ def test_stick_zone_moves_rigidly_for_every_poisson_ratio(ratio, nu):
         assert across == pytest.approx(0, abs=1e-9 * state.shift)
 
 
-# ---- Superposition for other profiles
-
-CONTACTS = {
-    "paraboloid": lambda load: PointContact.under_load(load, BALL_RADIUS, E_ALIKE),
-    "sphere": lambda load: SphereContact.under_load(load, BALL_RADIUS, E_ALIKE),
-    "cone": lambda load: ConeContact.under_load(load, 0.2, E_ALIKE),
-}
-
-
-@pytest.mark.parametrize("name", CONTACTS)
-@pytest.mark.parametrize("ratio", [0.3, -0.9])
-def test_superposed_shear_carries_the_force(name, ratio):
-    state = superpose(CONTACTS[name], LOAD, ratio * LIMIT, MU, E_ALIKE / G_STAR)
-    a, c = state.full.contact_radius, state.stick.contact_radius
-    assert disc_integral(state.shear, a, [c]) == pytest.approx(ratio * LIMIT, rel=1e-8)
-    r = a * np.linspace(0.01, 1, 60)
-    assert np.all(np.abs(state.shear(r)) <= MU * state.full.pressure(r) * (1 + 1e-12))
-    assert np.all(state.slip(r) * state.shear(r) <= 0)
-    assert np.all(state.slip(r[r < c]) == 0)
-
-
 def test_growth_without_slip_carries_the_force_within_the_limit():
     """Also after a growing and a falling tangential force; equal rates are one step."""
-    half, full = CONTACTS["paraboloid"](LOAD / 2), CONTACTS["paraboloid"](LOAD)
+    half, full = (PointContact.under_load(part * LOAD, BALL_RADIUS, E_ALIKE) for part in (0.5, 1.0))
     rates = 0.7 * MU, -0.9 * MU
     grown = GrownContact((half, full), rates, E_ALIKE / G_STAR)
     force = disc_integral(grown.shear, full.contact_radius, [half.contact_radius])

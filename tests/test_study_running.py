@@ -23,15 +23,22 @@ from verification.running.case_pool import (
     CaseStore,
     DamagedRecord,
     LocalWorkers,
+    ThisProcess,
     run_cases,
 )
 from verification.running.provenance import provenance
-from verification.running.study import CaseRecord, Settings, StudyRecord, stored_studies
+from verification.running.study import (
+    CaseRecord,
+    Settings,
+    StudyCase,
+    StudyRecord,
+    stored_studies,
+)
 from verification.studies.catalogue import STUDIES
 
 
 @dataclass
-class InThisProcess:
+class InThisProcess(ThisProcess):
     """Workers without a process; `code` is what they say their sources are."""
 
     elsewhere: bool = False
@@ -40,17 +47,11 @@ class InThisProcess:
     def lost(self) -> list[str]:
         return ["tcp://here:1"]
 
-    def deserted(self) -> str:
-        return ""
-
-    def submit(self, compute: Callable[..., Answer], case: Square) -> Future[Answer]:
+    def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
         future: Future[Answer] = Future()
-        answer = compute(case)
+        answer = super().submit(compute, case).result()
         future.set_result(answer if self.code is None else replace(answer, code=self.code))
         return future
-
-    def close(self) -> None:
-        pass
 
 
 CASE = Square(3.0)

@@ -11,9 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 
 def relative_l1(field: Field, exact: Field) -> float:

@@ -7,8 +7,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.quantities.increment import (
     SCALARS,
     State,
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
     from semi_analytical import Increment
 
-Field = NDArray[np.float64]
 
 # Smallest shear over the largest friction limit; the direction of a smaller shear is rounding.
 LEAST_SHEAR = 1e-6

@@ -22,13 +22,14 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Vector
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities.increment import State
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.stress import subsurface
-from verification.challenge.requested_quantities import Answer, Field, Key, Solver, Vector
+from verification.challenge.requested_quantities import Answer, Field, Key, Solver
 from verification.challenge.solver_process import CannotDo, Posed
 from verification.observed.ring_errors import along_radii, at_radii, outward
 from verification.quantities import shear_of
@@ -174,8 +175,8 @@ def field_between_rings(end: Any, traction: Vector) -> Field:
 
 
 def answer_on_elements(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with finite elements, 16 per contact radius on level 0,
-    doubled at each level.
+    """Solve a challenge with finite elements, 16 per contact radius on level 0, doubled at each
+    level.
 
     Raises CannotDo if the finite elements do not support the scene.
     """
@@ -194,8 +195,7 @@ def answer_on_elements(posed: Posed, level: int) -> Answer:
 
 
 def answer_on_radii(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the radial solver, with 32 rings on level 0,
-    doubled at each level.
+    """Solve a challenge with the radial solver, with 32 rings on level 0, doubled at each level.
 
     Raises CannotDo if the radial solver does not support the scene.
     """
@@ -245,8 +245,8 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Solve a benchmark problem (challenge) of surface displacements by a uniform traction on a
-    square, without contact.
+    """Solve a challenge of surface displacements by a uniform traction on a square, without
+    contact.
 
     The square is one cell and the points are centres of other cells. The displacements are
     therefore influence coefficients times the traction.
@@ -265,8 +265,7 @@ def under_a_patch(posed: Posed) -> Answer:
 
 
 def answer_on_cells(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the semi-analytical solver without edge correction
-    of the pressure.
+    """Solve a challenge with the semi-analytical solver without edge correction of the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level. A load history that does not
     converge is reported in the answer; other errors of the solver are raised.
@@ -275,8 +274,7 @@ def answer_on_cells(posed: Posed, level: int) -> Answer:
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Solve a benchmark problem (challenge) with the semi-analytical solver with edge correction of
-    the pressure.
+    """Solve a challenge with the semi-analytical solver with edge correction of the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level.
     """

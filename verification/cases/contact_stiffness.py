@@ -115,8 +115,6 @@ def contact_stiffness(level: Level = Level.QUICK) -> Case:
 
     Normal, tangential and torsional stiffness are compared with closed forms in full stick, partial
     slip, after a load reversal, and in gross slip.
-
-    level  amount of computation: quick, standard or full
     """
     cells, elements = (128, 32) if level is Level.QUICK else (256, 64)
 

@@ -15,11 +15,11 @@ from itertools import combinations, product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_results.surface import surface_of
 from contact_scene import FiniteElementDiscretisation, LoadStep, Scene
+from contact_scene.array_types import Field
 from fem_reference.stress import SurfaceTractions
 from fem_reference.stress import subsurface as section_field
 from semi_analytical.frf.depth import Level as Depth
@@ -69,7 +69,6 @@ from verification.problems.problem import (
 from verification.quantities import shear_of, shift_along_x
 from verification.references import load_reference
 
-Field = NDArray[np.float64]
 Results = Mapping[str, Any]
 
 MARGIN = 1.15  # half the window side over the contact radius without friction
@@ -355,8 +354,6 @@ def contacts(level: Level) -> tuple[Contact, ...]:
 
     The last contact has a tangential load, the others are pressed only. The full level has every
     combination of modulus ratio, coating thickness and friction.
-
-    level  amount of computation: quick, standard or full
     """
     chosen, cells, elements, harmonics = {
         Level.QUICK: (FEW_CONTACTS, 96, 32, 8),
@@ -369,17 +366,14 @@ def contacts(level: Level) -> tuple[Contact, ...]:
     )
 
 
-def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> Case:
+def cross_check(level: Level = Level.QUICK) -> Case:
     """Create the verification case that compares the three solvers on equal coated contacts.
 
     Judged are the differences of tractions, approach, stick area and shift between every two
     solvers. The subsurface stress on cells and on finite elements is compared for the first
     contact.
-
-    level  amount of computation: quick, standard or full
-    given  contacts to solve; default: those of the level
     """
-    chosen = given or contacts(level)
+    chosen = contacts(level)
     first = chosen[0]
     return case(
         "cross_check",
@@ -550,7 +544,7 @@ NAMES = {
     "coated_frictionless": "coated, no friction",
     "coated_frictional": "coated, µ = 0.1",
 }
-Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
+Reader = Callable[[Any, Field], Field]
 
 
 @dataclass(frozen=True)
@@ -647,8 +641,6 @@ def external_codes(level: Level = Level.QUICK) -> Case:
 
     The contacts are a rigid ball on a coating, with and without friction. Normal force, pressure
     and shear are judged.
-
-    level  amount of computation: quick, standard or full, with finer grids and meshes
     """
     sizes = ((128, 32), (256, 64), (512, 64))[level]
     return case(

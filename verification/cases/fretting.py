@@ -6,7 +6,7 @@ figures 1 and 2 of the reference paper.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -398,19 +398,15 @@ def _cycle_rows() -> tuple[Row, ...]:
     return tuple(replace(row, each=True) for row in rows)
 
 
-def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter: int = 4) -> Case:
+def fretting_loop(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a fretting loop of a ball with ν = 0, on cells.
 
     For ν = 0 the closed form of Mindlin and Deresiewicz is exact. Judged are tractions, slip,
     shift, energies and Ruiz's fretting parameters on the two grids with accuracy targets. The full
     level adds a finer grid.
-
-    level    amount of computation: quick, standard or full
-    cells    numbers of cells per side; default: those of the level
-    quarter  number of increments from zero to the largest tangential force
     """
-    cells = cells or ((128, 256, 512) if level is Level.FULL else (128, 256))
-    problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
+    cells = (128, 256, 512) if level is Level.FULL else (128, 256)
+    problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter=4)
     grids, wide = on_cells(problem, cells, FRETTING_WINDOW), on_cells(problem, cells[:1])
     on_wide_window = Reported(
         LARGEST_SHEAR_ERROR,
@@ -443,8 +439,6 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
 
     The ball has its exact circular arc, ν is 0.3, and the increments are those of the paper. The
     closed form is only approximate for ν > 0, so that the tolerances are wide.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 128 if level is Level.QUICK else 256
     band = (
@@ -619,30 +613,20 @@ def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption
     return draw
 
 
-def fem_partial_slip(
-    level: Level = Level.QUICK,
-    elements: int = 0,
-    studied: Sequence[tuple[int, float]] | None = None,
-) -> Case:
+def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """Create the verification case of partial slip and of a fretting loop by finite elements.
 
     Shift, stick radius, dissipated energy and shear are compared with closed forms. Above the quick
     level the orders of convergence are judged for a single tangential loading with ν = 0.
-
-    level     amount of computation: quick, standard or full
-    elements  number of elements per contact radius for the loop; 0: that of the level
-    studied   meshes for the orders of convergence: number of elements per radius, and position of
-              the contact edge within its element; default: those of the level
     """
-    orders = bool(studied) or level is not Level.QUICK
-    if studied is None:
-        # The positions of the stick edges in their elements depend on the mesh as well.
-        studied = order_levels(level, per_octave=10)
+    orders = level is not Level.QUICK
+    # The positions of the stick edges in their elements depend on the mesh as well.
+    studied = order_levels(level, per_octave=10)
     once = sheared(
         "Two alike bodies with ν = 0 sheared once, by finite elements", tuple(STOPPED.values())
     )
-    mesh = on_elements(LOOP, (elements or finest(level),), over=0.97)
-    shearing = [with_edge_at(once, (), studied, "sheared once")] if studied else []
+    mesh = on_elements(LOOP, (finest(level),), over=0.97)
+    shearing = with_edge_at(once, (), studied, "sheared once")
     listed = "0.3, 0.45, 0.6, 0.75 and 0.9 µW"
     also_by_cells = {step: part for step, part in STOPPED.items() if part in (0.3, 0.6, 0.9)}
     rows: tuple[Row, ...] = (
@@ -684,6 +668,16 @@ def fem_partial_slip(
         "a fifth of an element: the edge is extrapolated from the last values, which an older "
         "edge nearby disturbs",
     )
+    of_orders = (
+        convergence(
+            shearing,
+            falls,
+            "fem_partial_slip_convergence",
+            "Convergence under a tangential force",
+            f"Errors at {listed}, root mean square, against the side of an element over the "
+            "contact radius.",
+        ),
+    )
     return case(
         "fem_partial_slip",
         "Finite elements: fretting loop",
@@ -694,7 +688,7 @@ def fem_partial_slip(
         f"judged for a single loading with stops at {listed}, for ν = 0: there is no slip across "
         "the load, and the closed form is exact.",
         judged(mesh, (*OF_LOOP, stick_of_loop)),
-        *(judged(one, (*rows, *falls) if orders else rows) for one in shearing),
+        judged(shearing, (*rows, *falls) if orders else rows),
         charts=(
             *(
                 _loop_profile(
@@ -710,18 +704,7 @@ def fem_partial_slip(
                     (LOADED + 1, "reversed", "-0.9"),
                 )
             ),
-            *(
-                convergence(
-                    one,
-                    falls,
-                    "fem_partial_slip_convergence",
-                    "Convergence under a tangential force",
-                    f"Errors at {listed}, root mean square, against the side of an element over "
-                    "the contact radius.",
-                )
-                for one in shearing
-                if orders
-            ),
+            *(of_orders if orders else ()),
         ),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
@@ -734,8 +717,6 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
 
     A fretting loop and a ball in torsion are compared with closed forms. The penalty method allows
     a small elastic slip before Coulomb's law is applied.
-
-    level  amount of computation: quick, standard or full
     """
     gauss = "Shear at the Gauss points, the closed form, and their difference."
     n = (finest(level),)
@@ -826,8 +807,6 @@ def growing_loads(level: Level = Level.QUICK) -> Case:
     Normal and tangential load are prescribed as forces and as displacements. The shear follows the
     pressure, and one increment of each load step is exact. Judged are shear, force, shift, stick
     radius and dissipated energy on cells, elements and rings.
-
-    level  amount of computation: quick, standard or full
     """
     fine = level is not Level.QUICK
     cells, elements = 128 if fine else 64, 32 if fine else 16

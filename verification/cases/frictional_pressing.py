@@ -7,14 +7,14 @@ increments.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
@@ -28,6 +28,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
@@ -164,8 +165,6 @@ SHEAR_AT_EDGE = error_norm(
     OVER_LIMIT,
 )
 
-Field = NDArray[np.float64]
-
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:
     """Interpolate a field on cells bilinearly to the centres of the cells of a coarser or finer
@@ -175,27 +174,16 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
     the other grid are no substitute: they have a first-order error on the whole surface.
 
     cells  numbers of cells of the other grid along x and y
-    field  values at the cell centres of the first grid (…, n, m)
+    field  values at the cell centres of the first grid (components, n, m)
     """
-    along_x = _interpolation_weights(cells[0], field.shape[-2])
-    along_y = _interpolation_weights(cells[1], field.shape[-1])
-    return np.asarray(along_x @ field @ along_y.T)
-
-
-def _interpolation_weights(to: int, of: int) -> Field:
-    """Compute the matrix (to, of) of linear interpolation between the cell centres of two 1-D
-    divisions.
-
-    A unit length is divided into `of` equal cells with known values and into `to` equal cells of
-    the result. Beyond the outermost known centres the interpolated value is constant.
-    """
-    position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
-    left = np.minimum(position.astype(int), max(of - 2, 0))
-    weights = np.zeros((to, of))
-    rows = np.arange(to)
-    weights[rows, left] = 1 - (position - left)
-    weights[rows, np.minimum(left + 1, of - 1)] += position - left
-    return weights
+    places = (
+        (np.arange(to) + 0.5) * of / to - 0.5
+        for to, of in zip(cells, field.shape[-2:], strict=True)
+    )
+    at = np.meshgrid(*places, indexing="ij")
+    # Beyond the outermost centres the value is constant.
+    found = [map_coordinates(one, at, order=1, mode="nearest") for one in field]
+    return np.stack(found)
 
 
 ONE = "1"
@@ -259,8 +247,6 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     Pressure and shear are coupled. Approach, contact radius, pressure and shear on cells are
     compared with tabulated solutions of integral equations. The quick level has a coarse grid; the
     other levels judge the stick radius in addition.
-
-    level  amount of computation: quick, standard or full
     """
     why = "accuracy target of the coupled solver on 256 x 256 cells"
     cells, contacts = 256, [WEAK, STRONG, NO_POISSON_BALL, COATED]
@@ -517,8 +503,6 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     At the quick level, approach and stick radius are extrapolated from two runs and compared with
     Spence's solution. Other levels also judge the orders of convergence in the cells and in the
     increments.
-
-    level  amount of computation: quick, standard or full
     """
     few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
     # Changes are taken over two levels: a factor of 2 in cells or increments. Grids divide the
@@ -632,34 +616,25 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     )
 
 
-def sheared_increments(
-    level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
-) -> Case:
+def sheared_increments(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a rigid ball that is pressed and pushed in more and more
     increments.
 
     Pressure and shear are coupled, and no exact solution is known. Judged is the rate at which
     shift, shear and approach change with smaller increments.
-
-    level       amount of computation: quick, standard or full
-    increments  numbers of increments per load step; default: those of the level; orders of
-                convergence need five or more numbers
-    cells       number of cells per side
     """
-    counts = (
-        increments
-        or {
-            Level.QUICK: (4, 8),
-            Level.STANDARD: (4, 8, 16, 32, 64, 128),
-            Level.FULL: (4, 8, 16, 32, 64, 128, 256),
-        }[level]
-    )
+    cells = 48
+    counts = {
+        Level.QUICK: (4, 8),
+        Level.STANDARD: (4, 8, 16, 32, 64, 128),
+        Level.FULL: (4, 8, 16, 32, 64, 128, 256),
+    }[level]
     part = 0.5  # of µW
     push = (part * HALF.friction * NORMAL_FORCE, 0.0)
     grid = square_grid(cells, WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
     scene = HALF.problem(1).scene
     # Orders of the increments are judged without edge correction, whose changes are up to 1e-6.
-    several = len(counts) >= 5
+    several = level is not Level.QUICK
     edge: EdgeCorrection = "off" if several else "last"
     runs = tuple(
         Run(
@@ -770,8 +745,6 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
 
     Friction is so large that no cell slips, which makes the contact stiffer. The effect on the
     approach is compared with closed forms. The ball is added above the quick level.
-
-    level  amount of computation: quick, standard or full
     """
     few, many = 20, 40
     grid = square_grid(96, 1.2 * HERTZ.contact_radius)
@@ -879,8 +852,6 @@ def spence_example(level: Level = Level.QUICK) -> Case:
     The example is Spence's problem: a rigid paraboloid is pressed with friction, and half of the
     contact radius sticks. It is solved on the published grid and compared with the published
     numbers.
-
-    level  amount of computation; all levels are equal
     """
     # The units of CONTACT are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
@@ -976,8 +947,6 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
     Approach, contact radius, pressure and shear of a rigid ball on homogeneous and coated bodies
     are compared with tabulated solutions of integral equations.
-
-    level  amount of computation: quick, standard or full
     """
     n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
@@ -1088,8 +1057,6 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
 
     Coulomb's law is integrated by return mapping: a trial shear is scaled back to the friction
     limit. Approach, contact radius, pressure and shear are compared with tabulated solutions.
-
-    level  amount of computation: quick, standard or full
     """
     rows = (
         Within(APPROACH, 1e-3, PENALTY),

@@ -7,7 +7,6 @@ evaluated as well.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -15,10 +14,8 @@ from math import cos, radians, sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
-import semi_analytical
 from contact_scene import (
     RIGID,
     Body,
@@ -32,15 +29,14 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import (
-    OTHER_NORMS,
     SOLVER_TOLERANCE,
     Case,
-    Finding,
     Level,
     Quantity,
     Required,
@@ -51,7 +47,6 @@ from verification.judging.case import (
     per_radius,
 )
 from verification.judging.declared_case import IDENTITY, case
-from verification.observed.observed_laws import observed
 from verification.problems.cattaneo_mindlin import (
     LARGEST,
     PUNCH_RADIUS,
@@ -86,7 +81,6 @@ from verification.problems.problem import (
 )
 from verification.quantities import shear_of, shift_along_x
 
-Field = NDArray[np.float64]
 Difference = Callable[[Any, Any], float]
 
 ANSWERED = "residuals of two solves, amplified a few times in the tractions"
@@ -348,6 +342,23 @@ class CoupledContact:
         # The load history continues from uncorrected states, so that the identities hold for these.
         return Run(f"{self.name}{way}", scene, grid, edge="off")
 
+    def led_run(self, cells: int) -> Run:
+        """Create the run of the contact on cells with prescribed motions in place of the forces.
+
+        cells  number of cells per side of the window
+        """
+        shift = 0.5 * self.friction * HERTZ.approach  # about half of that at gross slip
+        loading = (
+            LoadStep(approach=HERTZ.approach, increments=6),
+            LoadStep(tangential_shift=(shift, 0.0), increments=2),
+            LoadStep(tangential_shift=(-shift, 0.0), increments=3),
+            LoadStep(tangential_shift=(-0.3 * shift, 0.7 * shift), increments=2),
+            LoadStep(approach=0.8 * HERTZ.approach, increments=2),
+        )
+        way = ", led by motion"
+        grid = square_grid(cells, 1.2 * HERTZ.contact_radius)
+        return Run(f"{self.name}{way}", self.scene(loading, way), grid, edge="off")
+
     def section(self, elements: int, harmonics: int) -> SectionRun:
         """Create the finite element run of the first load steps, whose tangential force acts along
         x.
@@ -365,112 +376,24 @@ class CoupledContact:
         return SectionRun(label, self.scene(self.history[:BACK], ", to and fro"), mesh)
 
 
-class MotionControlled:
-    """Compare a result under prescribed forces with a repeated solve under prescribed
-    displacements.
-
-    The repeated solve prescribes the computed approach and tangential shift of each increment of
-    the first result. Both solves must agree. The first result is needed to state the second
-    problem, so that the repeated solve is no run of the case; it is stored here for all measures.
-    If the repeated solve fails, the measures are infinite. Each measure is a function of the result
-    of the first solve, under prescribed forces.
-    """
-
-    def __init__(self) -> None:
-        self._solved: tuple[semi_analytical.Result, semi_analytical.Result | None] | None = None
-
-    def difference(self, result: semi_analytical.Result) -> float:
-        """Compute the largest difference of the tractions between first and repeated solve [1].
-
-        The result is the larger of Σ|Δp|/Σp and Σ|Δq|/Σp over all increments.
-        """
-        return self._measure(
-            result,
-            lambda repeated: worst(
-                *(
-                    float(np.sum(np.abs(one - other)) / np.sum(b.pressure))
-                    for a, b in zip(repeated.increments, result.increments, strict=True)
-                    for one, other in ((a.pressure, b.pressure), (shear_of(a), shear_of(b)))
-                )
-            ),
-        )
-
-    def violation(self, result: semi_analytical.Result) -> float:
-        """Compute the largest violation of a contact or friction law in the repeated solve [1].
-
-        The imbalance of the energies is included.
-        """
-        return self._measure(result, lambda repeated: worst(*observed(repeated)[:2]))
-
-    def iterations(self, result: semi_analytical.Result) -> float:
-        """Return the number of iterations of the repeated solve over all increments."""
-        return self._measure(
-            result, lambda repeated: float(sum(i.iterations for i in repeated.increments))
-        )
-
-    def _measure(
-        self,
-        result: semi_analytical.Result,
-        measure: Callable[[semi_analytical.Result], float],
-    ) -> float:
-        if self._solved is None or self._solved[0] is not result:
-            self._solved = result, solved_by_motion(result)
-        repeated = self._solved[1]
-        return math.inf if repeated is None else measure(repeated)
-
-
-def _as_pair(vector: Field) -> tuple[float, float]:
-    return float(vector[0]), float(vector[1])
-
-
-def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result | None:
-    """Solve a load history again, with the computed approach and shift of each increment
-    prescribed.
-
-    Returns None if the solver does not converge. While the ball is pressed, only the approach is
-    prescribed.
-
-    result  result on cells under prescribed forces
-    """
-    steps = tuple(
-        LoadStep(
-            approach=i.approach,
-            tangential_shift=None if i.step == PRESSED else _as_pair(_shift_of(i)),
-            increments=1,
-        )
-        for i in result.increments
-    )
-    scene = result.scene.model_copy(update={"loading": steps})
-    try:
-        return semi_analytical.solve(scene, result.grid, result.tolerance)
-    except semi_analytical.SolverError:
-        return None
-
-
-def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
+def coupled_history(level: Level = Level.QUICK) -> Case:
     """Create the verification case of tangential loops, turns and unloading with coupled pressure
     and shear.
 
-    No closed form exists. The histories on cells are compared with a rotated history, with a solve
-    under prescribed displacements, and with finite elements.
-
-    level  amount of computation: quick, standard or full
-    sizes  numbers of cells per side, elements per radius and harmonics; default: those of the level
+    No closed form exists. The histories on cells are compared with a rotated history and with
+    finite elements. In a further history motions are prescribed.
     """
-    cells, elements, harmonics = (
-        sizes
-        or {
-            Level.QUICK: (32, 16, 4),
-            Level.STANDARD: (64, 32, 8),
-            Level.FULL: (128, 64, 12),
-        }[level]
-    )
+    cells, elements, harmonics = {
+        Level.QUICK: (32, 16, 4),
+        Level.STANDARD: (64, 32, 8),
+        Level.FULL: (128, 64, 12),
+    }[level]
     bare = CoupledContact("homogeneous, µ = 0.3", Body(material=SUBSTRATE), 0.3)
     filmed = CoupledContact("coated, µ = 0.1", FILMED, 0.1)
     runs = [bare.run(cells), bare.run(cells, 30.0), bare.run(cells, 90.0)]
     films = [filmed.run(cells), filmed.run(cells, 90.0)]
     section = bare.section(elements, harmonics)
-    repeated = {run.label: MotionControlled() for run in (runs[0], films[0])}
+    led = bare.led_run(cells), filmed.led_run(cells)
     carried = "residuals of two solves, amplified in the tractions and carried through the history"
     read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
         "shift": ("shift", 5e-3, shift_along_x),
@@ -487,60 +410,11 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         "A rigid ball is pressed on bodies that couple pressure and shear. A tangential force of "
         "two thirds of µW is applied, reversed and turned; then the contact is unloaded under "
         "that force. The effects of reversal, turn and unloading on the surface have no closed "
-        "form here. The same history is therefore also solved after a rotation, with the "
-        "resulting motions prescribed instead of the forces, and by finite elements.",
-        runs=(*runs, *films, section),
-        findings=tuple(
-            Finding(
-                "led_by_motion_iterations",
-                "iterations of the history with prescribed motion",
-                "",
-                label,
-                again.iterations,
-                "cost of the solve for led_by_motion, in addition to the runs of this case; the "
-                "motions are known only after the run",
-            )
-            for label, again in repeated.items()
-        ),
+        "form here. The same history is therefore also solved after a rotation and by finite "
+        "elements. A history of the same kind prescribes approach and shift; its laws are judged "
+        "as those of all runs.",
+        runs=(*runs, *films, section, *led),
         quantities=(
-            *(
-                Quantity(
-                    name,
-                    meaning,
-                    "",
-                    label,
-                    measure,
-                    identity(0.0, source),
-                    Required(allowed, because),
-                    1.0,
-                    scale,
-                )
-                for label, again in repeated.items()
-                for name, meaning, measure, source, allowed, because, scale in (
-                    (
-                        "led_by_motion",
-                        "difference from the same history with prescribed "
-                        "approach and shift, in any increment: pressure, shear; infinite if the "
-                        "solver does not complete that history",
-                        again.difference,
-                        "force and motion are conjugate: the kind of control has no effect",
-                        100 * SOLVER_TOLERANCE,
-                        carried,
-                        "the pressure",
-                    ),
-                    (
-                        "laws_led_by_motion",
-                        "largest violation of a law of contact and friction, "
-                        "or fraction of the energy unaccounted for, in the history with prescribed "
-                        "motion; infinite if the solver does not complete it",
-                        again.violation,
-                        "the laws do not depend on the kind of control",
-                        OTHER_NORMS * SOLVER_TOLERANCE,
-                        "as for every run",
-                        "dimensionless",
-                    ),
-                )
-            ),
             *(
                 compare_runs(
                     "turned_by_90",
@@ -615,8 +489,6 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
     The inputs are height maps, friction maps, rectangular cells, and layers of the base material.
     All must give equal results.
-
-    level  amount of computation: quick, standard or full
     """
     # An odd number of cells has a central cell, in which the height of the ball is zero.
     cells = 32 * 2**level + 1
@@ -780,8 +652,6 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
 
     The solver omits effects that a scene does not need, such as the coupling of pressure and shear
     for equal bodies. Each scene is solved with and without the omission; the results must be equal.
-
-    level  amount of computation: quick, standard or full
     """
     cells = 48 if level is Level.QUICK else 96
     grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
@@ -897,8 +767,6 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
 
     A reflection maps one contact to the other, so that the results must be equal. Cells, finite
     elements and the radial solver are judged.
-
-    level  amount of computation: quick, standard or full
     """
     source = (
         "a reflection in the contact plane exchanges the bodies and reverses the tangential "
@@ -1024,8 +892,6 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
     Judged are the prescribed quantity in every increment and the number of increments. While the
     ball is pressed, force and approach are compared with Hertz theory.
-
-    level  amount of computation: quick, standard or full
     """
     ball, limit = paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
@@ -1154,8 +1020,6 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
     A flat punch under normal force, tangential force and torque is solved on a small and a large
     mesh. The motions must agree, because the boundary moves as a half-space under the resultant
     load.
-
-    level  amount of computation: quick, standard or full
     """
     near, far = 5.0, 100.0  # box over radius
     push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips

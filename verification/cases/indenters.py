@@ -39,7 +39,6 @@ from verification.judging.declared_case import (
     FORCE,
     IDENTITY,
     JUDGED_BY,
-    MIDDLE,
     PEAK_PRESSURE,
     PENALTY,
     PRESSURE_L1,
@@ -206,8 +205,6 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a ball with its exact circular arc instead of a paraboloid.
 
     Approach, peak pressure and contact radius on cells are compared with Sneddon's solution.
-
-    level  amount of computation: quick, standard or full
     """
     ball, load = Sphere(radius=RADIUS, material=STEEL), pressing()
     problem = Problem(
@@ -318,8 +315,6 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
     Without friction the history has no effect. The end state is compared with Hertz theory, and for
     coated bodies with a single loading by the smaller force.
-
-    level  amount of computation: quick, standard or full
     """
     cells, elements = {
         Level.QUICK: (128, 32),
@@ -460,8 +455,6 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
 
     Approach, peak pressure, mean contact radius and pressure on rectangular cells are compared with
     the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     mean_radius = replace(
         CONTACT_RADIUS,
@@ -531,26 +524,14 @@ ON_MESHES = (
 )
 
 
-def fem_hertz(
-    level: Level = Level.QUICK,
-    elements: Sequence[int] = (),
-    studied: Sequence[tuple[int, float]] = (),
-) -> Case:
+def fem_hertz(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the Hertz contact of a ball by finite elements on many
     meshes.
 
     Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
     orders of convergence are judged.
-
-    level     amount of computation: quick, standard or full
-    elements  numbers of elements per contact radius; default: those of the level
-    studied   meshes for the orders of convergence: number of elements per radius, and position of
-              the contact edge within its element; default: those of the level, or the meshes of
-              `elements` up to 64 per radius
     """
-    studied = studied or (() if elements else order_levels(level))
-    elements = elements or levels(level)
-    meshes = with_edge_at(BALL, elements, studied or [(n, MIDDLE) for n in elements if n <= 64])
+    meshes = with_edge_at(BALL, levels(level), order_levels(level))
     return case(
         "fem_hertz",
         "Finite elements: Hertz point contact",
@@ -597,8 +578,6 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
 
     The penalty allows the surfaces to overlap. Judged are the error that the overlap causes, and
     the results after one augmentation, which removes the overlap.
-
-    level  amount of computation: quick, standard or full, with finer meshes at higher levels
     """
     elements, factor = finest(level), 10.0
     mesh = with_edge_at(BALL, (elements,))
@@ -664,8 +643,6 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     apex.
 
     Approach, contact radius and pressure on cells are compared with the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(CONE, cells)
@@ -713,8 +690,6 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
     the rim.
 
     Approach and central pressure on cells are compared with the closed form.
-
-    level  amount of computation: quick, standard or full
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
@@ -805,8 +780,6 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
 
     Tilt, approach and pressure are compared with the closed form. Prescribed moment and prescribed
     tilt must give equal stiffnesses.
-
-    level  amount of computation: quick, standard or full
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
@@ -921,8 +894,6 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
     The ball rolls until the contact lies below the force. Motion and tractions must be those of a
     central contact that is shifted by whole cells.
-
-    level  amount of computation: quick, standard or full
     """
     cells, increments = 64 if level is Level.QUICK else 128, 5
     source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
@@ -1049,8 +1020,6 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
 
     Approach, contact radius and pressure are compared with closed forms. The order of convergence
     of the central pressure of the punch is judged above the quick level.
-
-    level  amount of computation: quick, standard or full
     """
     why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
     rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"

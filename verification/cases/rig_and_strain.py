@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from contact_results.cycles import fretting_cycles
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import OnCells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
+from contact_scene.array_types import Field
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.hertz import EllipticalContact
@@ -120,7 +121,7 @@ class EccentricContact:
         a, b = self.stick.semi_axes
         return float(np.sqrt(a * b))
 
-    def shear(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, x: ArrayLike, y: ArrayLike) -> Field:
         """Compute the shear along x on the lower body at points (x, y) [force/length²]."""
         xs = np.asarray(x, dtype=float)
         lacking = self.stick.pressure(xs - self.eccentricity, y)
@@ -316,8 +317,6 @@ def series_spring(level: Level = Level.QUICK) -> Case:
 
     Force, shift, dissipated energy and loop numbers are compared with the closed form of a contact
     in series with a spring, for ν = 0.
-
-    level  amount of computation: quick, standard or full
     """
     problem = _spring_loop_problem()
     why = "set by hand: error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 µW"
@@ -414,8 +413,6 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
     Force and strain grow in proportion, so that the stick zone is eccentric. Shear, shift, energy,
     size and centre of the stick zone are compared with the closed form. The order of convergence of
     the shear is judged.
-
-    level  amount of computation: quick, standard or full
     """
     most = (128, 192, 256)[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
@@ -526,8 +523,6 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
 
     Stick radius and dissipated energy of all solvers and contact methods are compared with stored
     reference numbers. The stress that a strain adds in a coated body is judged as well.
-
-    level  amount of computation: quick, standard or full
     """
     known = load_reference("strained_ball")
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])

@@ -10,7 +10,6 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import semi_analytical
 from contact_results.stress.body_regions import REACH
@@ -19,6 +18,7 @@ from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.points import StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid
+from contact_scene.array_types import Field, Mask
 from contact_scene.quantities.residuals import worst
 from radial.stress.circle_fit import axisymmetric_circle
 from radial.stress.loaded_circle import LoadedCircle
@@ -67,8 +67,6 @@ from verification.problems.problem import (
     pressed,
     rigid_ball,
 )
-
-Field = NDArray[np.float64]
 
 XX = 0
 YY = 1
@@ -381,7 +379,7 @@ def _edge_line_error() -> float:
     return _largest_over_peak(found.at(x, np.zeros_like(x))[0] - exact)
 
 
-def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
+def _near_edge() -> tuple[NearEdge, Field, Field, Mask]:
     """Return the stress of a sliding contact near its edge, and the cells within three cells of the
     edge.
 

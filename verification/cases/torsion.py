@@ -13,7 +13,6 @@ from math import hypot, pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 from contact_errors.coarse_solves import stated_errors
@@ -26,6 +25,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
@@ -91,8 +91,6 @@ from verification.problems.problem import (
     rigid_ball,
 )
 from verification.quantities import energy_between, shear_of
-
-Field = NDArray[np.float64]
 
 SLIDING = "of the sliding torque"
 HALF_A_PER_CENT = "the accuracy target is 0.5 % of the twist at 128 x 128"
@@ -169,8 +167,6 @@ def torsion(level: Level = Level.QUICK) -> Case:
 
     Twist, stick radius, shear and, for a closed torque loop, the dissipated energy are compared
     with closed forms.
-
-    level  amount of computation: quick, standard or full
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
@@ -307,8 +303,6 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
 
     Twist and stick radius are compared with the solution of an integral equation. Equal bodies do
     not couple torsion and pressure.
-
-    level  amount of computation: quick, standard or full
     """
     rows = at_stops(
         COATED_PARTS,
@@ -349,8 +343,6 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
 
     Twist, stick radius and shear are compared with closed forms, on meshes with several positions
     of the contact edge in its element.
-
-    level  amount of computation: quick, standard or full
     """
     cusp = (
         "set by hand: at 64 elements per radius 2e-3 of the twist and 5e-3 of µp_H, on other "
@@ -581,9 +573,6 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
 
     Histories of torque and tangential force on a coated body are compared with a solve on cells. A
     ball of uncoupled bodies in torsion is compared with closed forms.
-
-    level  amount of computation: quick, standard or full, with finer cells and elements at higher
-           levels
     """
     cells = (64, 96, 192)[level]
     elements = (16, 24, 32)[level]

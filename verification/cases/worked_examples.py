@@ -24,7 +24,6 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 import semi_analytical
 from contact_results.directory.file_names import CYCLES, FIELDS, INCREMENTS
@@ -36,6 +35,7 @@ from contact_results.stress.stress_maxima import (
     extremes,
 )
 from contact_scene import Body, LoadStep, Scene
+from contact_scene.array_types import Field
 from contact_scene.quantities.increment import (
     SCALARS,
     components,
@@ -248,8 +248,6 @@ _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
     ),
 )
 
-
-Field = NDArray[np.float64]
 
 CELLS = 24
 COARSE = 16

@@ -12,7 +12,6 @@ from math import log
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_scene import (
@@ -25,6 +24,7 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.geometry import Indenter
 from verification.cases.frictional_pressing import (
     NO_SLIP_BALL,
@@ -137,8 +137,7 @@ def stick_radius(step: int, value: float, **more: Any) -> AskedValue:
 
 
 def torsion() -> Challenge:
-    """Create the benchmark problem (challenge) of a pressed ball that is twisted to increasing
-    torques (Lubkin).
+    """Create the challenge of a pressed ball that is twisted to increasing torques (Lubkin).
 
     The twist, the stick radius and the circumferential shear at each torque are requested.
     """
@@ -174,8 +173,7 @@ def torsion() -> Challenge:
 
 
 def torsion_loop() -> Challenge:
-    """Create the benchmark problem (challenge) of a pressed ball under a torque that alternates
-    between two limits.
+    """Create the challenge of a pressed ball under a torque that alternates between two limits.
 
     The twist at the end of each load step and the energy lost in one cycle are required.
     """
@@ -195,8 +193,8 @@ def torsion_loop() -> Challenge:
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
-    """Create the benchmark problem (challenge) of a rigid ball that is pressed with friction, with
-    a tabulated reference.
+    """Create the challenge of a rigid ball that is pressed with friction, with a tabulated
+    reference.
 
     Pressure and radial shear are required at radii that keep a distance from the contact edge and
     from the stick edge.
@@ -240,9 +238,7 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     )
 
 
-def interpolate_profile(
-    one: Indentation, profile: str, r: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def interpolate_profile(one: Indentation, profile: str, r: Field) -> Field:
     """Interpolate the tabulated pressure or shear of an indentation to other distances from the
     axis.
 
@@ -264,8 +260,7 @@ def interpolate_profile(
 
 
 def stuck_punch(nu: float) -> Challenge:
-    """Create the benchmark problem (challenge) of a flat punch in full stick on a half-space with
-    Poisson's ratio nu.
+    """Create the challenge of a flat punch in full stick on a half-space with Poisson's ratio nu.
 
     The required approach is that of the frictionless punch divided by Mossakovskii's factor.
     """
@@ -290,8 +285,8 @@ def stuck_punch(nu: float) -> Challenge:
 
 
 def stuck_ball(nu: float) -> Challenge:
-    """Create the benchmark problem (challenge) of a rigid ball in full stick on a half-space with
-    Poisson's ratio nu (Spence).
+    """Create the challenge of a rigid ball in full stick on a half-space with Poisson's ratio nu
+    (Spence).
 
     The approach and the contact radius are required.
     """
@@ -353,8 +348,7 @@ MOVED = {
 
 
 def sliding_stress() -> Challenge:
-    """Create the benchmark problem (challenge) of the stress below a ball in gross slip along x
-    (Hamilton).
+    """Create the challenge of the stress below a ball in gross slip along x (Hamilton).
 
     The surface tractions are the Hertz pressure, and a shear along x of µ times this pressure.
     """
@@ -384,8 +378,8 @@ def sliding_stress() -> Challenge:
 
 
 def layered_patches() -> Iterator[Challenge]:
-    """Yield the benchmark problems (challenges) of a layered half-space under a uniform traction on
-    a square, without contact.
+    """Yield the challenges of a layered half-space under a uniform traction on a square, without
+    contact.
 
     The displacements at given points of the surface are required. The references are dimensionless;
     the layer is given a thickness of 1 mm.
@@ -435,8 +429,7 @@ WORDS = (
 
 
 def tilted_punch() -> Challenge:
-    """Create the benchmark problem (challenge) of a flat punch that is pressed and tilted by a
-    prescribed slope.
+    """Create the challenge of a flat punch that is pressed and tilted by a prescribed slope.
 
     The punch remains in contact over its whole end, whose displacement is a plane. The approach and
     the moments are required.
@@ -459,7 +452,7 @@ def tilted_punch() -> Challenge:
 
 
 def tilted_ball() -> Challenge:
-    """Create the benchmark problem (challenge) of a ball that is pressed and tilted by the slope φ.
+    """Create the challenge of a ball that is pressed and tilted by the slope φ.
 
     A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2. The approach,
     the contact radius and the moments are required.
@@ -523,8 +516,7 @@ def scene_of(poisson_ratio: float) -> Scene:
 
 
 def changing_loads() -> Iterator[Challenge]:
-    """Yield the benchmark problems (challenges) of a ball under changing normal and tangential
-    forces and a torque.
+    """Yield the challenges of a ball under changing normal and tangential forces and a torque.
 
     The references are numbers of the radial solver, extrapolated to fine increments.
     """
@@ -586,8 +578,8 @@ UNCERTAINTY = 1e-4
 
 
 def paper_figure() -> Challenge:
-    """Create the benchmark problem (challenge) of a rigid ball on a coated body, pressed with
-    friction and then sheared.
+    """Create the challenge of a rigid ball on a coated body, pressed with friction and then
+    sheared.
 
     The coating is twice as stiff as its substrate and as thick as the Hertz contact radius. The
     approach and the tangential shifts are required.
@@ -621,7 +613,7 @@ SERIES = 24
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """Return all benchmark problems (challenges) for other codes, by name.
+    """Return all challenges for other codes, by name.
 
     The peak pressure of a cone is infinite, and a punch prescribes the contact radius: these are
     not required.
@@ -649,8 +641,7 @@ def challenges() -> dict[str, Challenge]:
 
 
 def hertz_elliptical() -> Challenge:
-    """Create the benchmark problem (challenge) of a barrel on a half-space, whose Hertz contact is
-    an ellipse.
+    """Create the challenge of a barrel on a half-space, whose Hertz contact is an ellipse.
 
     The window is square, so that a code that exchanges x and y gets wrong semi-axes.
     """
@@ -664,9 +655,7 @@ def hertz_elliptical() -> Challenge:
 
 
 def coated_balls() -> Iterator[Challenge]:
-    """Yield one benchmark problem (challenge) of a frictionless rigid ball for each tabulated
-    coating.
-    """
+    """Yield one challenge of a frictionless rigid ball for each tabulated coating."""
     for row in ROWS:
         problem = coated_ball(row)
         exact = solved_here(problem).ends[0]
@@ -681,8 +670,8 @@ def coated_balls() -> Iterator[Challenge]:
 
 
 def cattaneo_mindlin() -> Challenge:
-    """Create the benchmark problem (challenge) of a ball that is pressed and then sheared in 4 load
-    steps (Cattaneo, Mindlin).
+    """Create the challenge of a ball that is pressed and then sheared in 4 load steps (Cattaneo,
+    Mindlin).
 
     The approach, and at each step the tangential shift, the stick radius and the shear are
     requested.
@@ -704,8 +693,7 @@ def cattaneo_mindlin() -> Challenge:
 
 
 def loop() -> Challenge:
-    """Create the benchmark problem (challenge) of a ball under constant load and an alternating
-    tangential force.
+    """Create the challenge of a ball under constant load and an alternating tangential force.
 
     Each load step of the fretting loop prescribes a force. The tangential shift, stick radius and
     shear of each step, and the energy per cycle are requested.
@@ -744,8 +732,7 @@ def _pressed_challenge(
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
-    """Create a benchmark problem (challenge) with one load step, in which a normal force of 1 kN
-    presses the indenter.
+    """Create a challenge with one load step, in which a normal force of 1 kN presses the indenter.
 
     name      name of the challenge
     problem   verification problem with its exact solution

@@ -22,6 +22,7 @@ import numpy as np
 from contact_results.directory.atomic_file import Refused
 from contact_results.directory.run_directory import files_at_once
 from contact_scene import Scene
+from contact_scene.array_types import Vector
 from contact_scene.reading.units import (
     LENGTH,
     MOMENT,
@@ -45,7 +46,6 @@ from verification.challenge.requested_quantities import (
     Key,
     Patch,
     Solver,
-    Vector,
 )
 
 

@@ -604,7 +604,7 @@ def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
 
 @cache
 def _known_quantities() -> frozenset[str]:
-    """Return the names of all quantities that any benchmark problem (challenge) requires.
+    """Return the names of all quantities that any challenge requires.
 
     Used to refuse misspelt names in the answer of a solver.
     """

@@ -16,17 +16,15 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from contact_scene import Body, Scene
+from contact_scene.array_types import Vector
 from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
     LoadRamp,
 )
 from verification.problems.problem import ROUNDING
-
-Vector = NDArray[np.float64]
 
 NODES = 64
 

@@ -29,12 +29,12 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from contact_results.directory.atomic_file import Refused
-from verification.challenge.requested_quantities import Answer, Field, Key, Vector
+from contact_scene.array_types import Vector
+from verification.challenge.requested_quantities import Answer, Field, Key
 
 
 class CannotDo(Exception):
-    """Exception that a solver function raises for a benchmark problem (challenge) outside its
-    scope."""
+    """Exception that a solver function raises for a challenge outside its scope."""
 
 
 @dataclass(frozen=True)

@@ -21,11 +21,11 @@ Chen 1984, Exp. Mech. 24, 208-217). τ is the largest shear at a position in a c
 range of slip, and σ_T the largest surface stress along the force at the ends of the cycle.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import copysign, expm1, log1p, pi
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +35,8 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
 )
+
+Array = NDArray[np.float64]
 
 # Relative excess of T over µW that counts as T = µW, because both contain rounding errors.
 ROUNDING = 1e-14
@@ -119,7 +121,7 @@ class PartialSlip:
         y = 1 - slipped
         return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear on the lower body at distance r from the axis [force/length²].
 
         The shear is parallel to the tangential force, and zero outside the contact.
@@ -131,7 +133,7 @@ class PartialSlip:
         slope = 3 * self.friction_limit / (2 * pi * a**3)
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
-    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+    def slip(self, r: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at distance r from the
         axis [length].
 
@@ -148,113 +150,6 @@ class PartialSlip:
     @property
     def _force_ratio(self) -> float:
         return min(abs(self.tangential_force) / self.friction_limit, 1.0)
-
-
-class NormalContact(Protocol):
-    """Interface of the solution of a normal contact, as required for the superposition of partial
-    slip.
-
-    Positions are distances r from the axis, or coordinates (x, y).
-    """
-
-    @property
-    def load(self) -> float:
-        """Normal load under which the contact is in this state [force]."""
-
-    @property
-    def approach(self) -> float:
-        """Approach of distant points of the two bodies since first touch [length]."""
-
-    @property
-    def pressure(self) -> Callable[..., NDArray[np.float64]]:
-        """Contact pressure as a function of the position, r or (x, y) [force/length²]."""
-
-    @property
-    def gap(self) -> Callable[..., NDArray[np.float64]]:
-        """Gap of the deformed surfaces as a function of the position, r or (x, y) [length]."""
-
-
-@dataclass(frozen=True)
-class Superposition:
-    """Hold the partial slip of a contact as µ times the difference of two normal contacts.
-
-    `superpose` creates this state.
-
-    full                  normal contact under the load W
-    stick                 normal contact under W - |T|/µ; its area is the stick zone
-    friction_coefficient  coefficient of friction µ
-    modulus_ratio         contact modulus over tangential modulus, E*/G*
-    tangential_force      T [force]
-    """
-
-    full: NormalContact
-    stick: NormalContact
-    friction_coefficient: float
-    modulus_ratio: float
-    tangential_force: float
-
-    @property
-    def shift(self) -> float:
-        """Tangential shift of the indenter [length].
-
-        The shift is µ E*/G* times the difference in approach of the two normal contacts (E*/G*:
-        contact modulus over tangential modulus).
-        """
-        return self._signed_state * self.modulus_ratio * (self.full.approach - self.stick.approach)
-
-    def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body at a position (r) or (x, y) [force/length²].
-
-        Both pressures are infinite at an apex; evaluate the shear at a distance from the apex.
-        """
-        return np.asarray(
-            self._signed_state * (self.full.pressure(*position) - self.stick.pressure(*position))
-        )
-
-    def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter at a position in contact
-        [length].
-
-        The position is a distance r from the axis or (x, y). The formula holds for ν = 0. The slip
-        opposes the shear. Its magnitude is the gap of the normal contact that has the stick zone as
-        contact area, times µ E*/G*.
-        """
-        opened = self.stick.gap(*position) - self.full.gap(*position)
-        return np.asarray(-self._signed_state * self.modulus_ratio * opened)
-
-    @property
-    def _signed_state(self) -> float:
-        return copysign(self.friction_coefficient, self.tangential_force)
-
-
-def superpose(
-    contact_under_load: Callable[[float], NormalContact],
-    load: float,
-    tangential_force: float,
-    friction_coefficient: float,
-    modulus_ratio: float,
-) -> Superposition:
-    """Compute the partial slip of a contact under a tangential force from its normal solution.
-
-    The shear is µ times the difference of two pressures (Jäger, Ciavarella).
-
-    contact_under_load    normal contact as a function of the normal load [force] >= 0
-    load                  normal load W > 0 [force]
-    tangential_force      T, |T| <= µW [force]
-    friction_coefficient  µ > 0
-    modulus_ratio         contact modulus over tangential modulus, E*/G* > 0
-
-    Raises ValueError when |T| > µW.
-    """
-    _refuse_gross_slip(tangential_force, friction_coefficient * load)
-    stick_load = max(load - abs(tangential_force) / friction_coefficient, 0.0)
-    return Superposition(
-        contact_under_load(load),
-        contact_under_load(stick_load),
-        friction_coefficient,
-        modulus_ratio,
-        tangential_force,
-    )
 
 
 @dataclass(frozen=True)
@@ -290,7 +185,7 @@ class GrownContact:
         """Radius of the stick zone, which is the whole contact [length]."""
         return self.contacts[-1].contact_radius
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear Σ k Δp on the lower body at distances r from the axis [force/length²].
 
         p is the pressure at the ends of the load steps.
@@ -360,7 +255,7 @@ class TangentialHistory:
         """Tangential shift of the indenter relative to the body after the load history [length]."""
         return sum(scale * state.shift for scale, state in self.branches())
 
-    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+    def shear(self, r: ArrayLike) -> Array:
         """Compute the shear on the lower body at distance r from the axis after the load history
         [force/length²].
         """
@@ -369,7 +264,7 @@ class TangentialHistory:
             total = total + scale * state.shear(r)
         return total
 
-    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+    def slip(self, r: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at distance r from the
         axis [length].
 
@@ -411,7 +306,7 @@ class TangentialHistory:
         return 2 * replace(self.virgin, tangential_force=half).dissipated_energy
 
 
-Values = NDArray[np.float64]
+Values = Array
 
 # Number of radii at which the largest value is searched, dense near the edge, where σ_T > 0.
 PLACES = 20_001

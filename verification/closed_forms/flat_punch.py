@@ -13,6 +13,8 @@ from math import hypot, pi, sqrt, tan
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class FlatPunchContact:
@@ -46,7 +48,7 @@ class FlatPunchContact:
         """
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the pressure W/(2πa√(a²-r²)) of the punch at distance r from the axis
         [force/length²].
 
@@ -55,16 +57,8 @@ class FlatPunchContact:
         """
         return _rim_singular(self.load, self.contact_radius, r)
 
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Return the gap between punch and half-space at distance r from the axis [length].
 
-        The gap is zero under the punch and infinite outside, where the punch has no surface.
-        """
-        rho = np.abs(np.asarray(r, dtype=float))
-        return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
-
-
-def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:
+def _rim_singular(force: float, a: float, r: ArrayLike) -> Array:
     rho = np.abs(np.asarray(r, dtype=float))
     inside = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -115,7 +109,7 @@ class TiltedPunch:
         e_x, e_y = self.eccentricity
         return self.load * e_x / stiffness, self.load * e_y / stiffness
 
-    def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Compute the pressure of the tilted punch at points (x, y) [force/length²].
 
         The pressure is W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²), infinite at the rim and zero
@@ -164,7 +158,7 @@ class ConeContact:
         """
         return pi / 2 * self.contact_radius * tan(self.slope_angle)
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the pressure (E*/2) tan(slope) arccosh(a/r) at distance r from the axis
         [force/length²].
 
@@ -175,14 +169,3 @@ class ConeContact:
         with np.errstate(divide="ignore"):
             ratio = np.divide(a, rho, out=np.ones_like(rho), where=inside)
         return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
-
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap between cone and deformed half-space at distance r from the axis
-        [length].
-
-        The gap is tan(slope) [√(r²-a²) - a arccos(a/r)], and zero inside the contact radius a.
-        """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        outside = np.maximum(rho, a)
-        root = np.sqrt((outside - a) * (outside + a))
-        return np.asarray(tan(self.slope_angle) * (root - a * np.arctan2(root, a)))

@@ -20,6 +20,8 @@ from scipy.special import elliprd, elliprf
 
 from verification.closed_forms.quadrature import unit_gauss
 
+Array = NDArray[np.float64]
+
 ElasticConstants = tuple[float, float]
 
 
@@ -110,7 +112,7 @@ class PointContact:
         """Pressure at the centre of the Hertz contact, 3W/2πa² = 2E*a/πR [force/length²]."""
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the Hertz pressure at distance r from the axis [force/length²].
 
         The pressure is zero outside the contact.
@@ -119,17 +121,6 @@ class PointContact:
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
         slope = 2 * self.contact_modulus / (pi * self.radius)
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
-
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap of the deformed surfaces at distance r from the axis [length].
-
-        The gap is r²/2R - approach + displacement, and exactly zero inside the contact.
-        """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        outside = np.maximum(rho, a)
-        root = np.sqrt((outside - a) * (outside + a))
-        angle = np.arctan2(root, a)
-        return np.asarray((a * root + (outside**2 - 2 * a**2) * angle) / (pi * self.radius))
 
 
 SERIES_BELOW = 0.3
@@ -197,7 +188,7 @@ class SphereContact:
         """Pressure at the centre of the contact of ball and half-space [force/length²]."""
         return float(self.pressure(0.0))
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, r: ArrayLike) -> Array:
         """Compute the pressure below a ball with its exact arc at distance r from the axis
         [force/length²].
 
@@ -214,22 +205,6 @@ class SphereContact:
         return np.asarray(
             self.contact_modulus / pi * (first + R / depth * np.arctanh(chord / depth))
         )
-
-    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap of the deformed surfaces at distance r from the axis [length].
-
-        The gap is zero inside the contact, and infinite beyond the ball radius, where the ball has
-        no surface.
-        """
-        R, a = self.radius, self.contact_radius
-        rho = np.abs(np.asarray(r, dtype=float))
-        outside = np.clip(rho, a, R)
-        start = np.arctan2(a, np.sqrt((outside - a) * (outside + a)))[..., None]
-        v, weights = unit_gauss(ORDER)
-        s = outside[..., None] * np.sin(start + (pi / 2 - start) * v)
-        excess = s * np.arctanh(s / R) - self.approach
-        gap = 2 / pi * (pi / 2 - start[..., 0]) * (excess * weights).sum(axis=-1)
-        return np.asarray(np.where(rho > R, np.inf, gap))
 
 
 def _reduced_load(x: float) -> float:
@@ -330,7 +305,7 @@ class EllipticalContact:
             self.contact_modulus
         )
 
-    def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Compute the pressure of the elliptical Hertz contact at points (x, y) [force/length²].
 
         The coordinates are broadcast together. The pressure is zero outside the contact ellipse.
@@ -338,38 +313,3 @@ class EllipticalContact:
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
-
-    def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal surface displacement of both bodies together at points (x, y)
-        [length].
-
-        The points may lie inside or outside the contact. The displacement is the potential of an
-        ellipsoidal density: the integrals start at the parameter of the confocal ellipse through
-        (x, y), which is zero inside. The load must be above zero.
-        """
-        xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-        a2, b2 = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
-        half = (xs**2 + ys**2 - a2 - b2) / 2
-        product = b2 * xs**2 + a2 * ys**2 - a2 * b2
-        root = np.sqrt(np.maximum(half**2 + product, 0))
-        # of the two forms of the quadratic's positive root, the one that does not cancel
-        near = np.divide(product, root - half, out=np.zeros_like(root), where=half < 0)
-        confocal = np.where(product > 0, np.where(half < 0, near, half + root), 0.0)
-        potential = (
-            elliprf(a2 + confocal, b2 + confocal, confocal)
-            - xs**2 * elliprd(b2 + confocal, confocal, a2 + confocal) / 3
-            - ys**2 * elliprd(a2 + confocal, confocal, b2 + confocal) / 3
-        )
-        scale = self._pressure_slope * a2 * self.semi_axes[1] / self.contact_modulus
-        return np.asarray(scale * potential)
-
-    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap of the deformed surfaces at points (x, y) [length].
-
-        The gap is zero to rounding inside the contact.
-        """
-        xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-        undeformed = xs**2 / (2 * self.radii[0]) + ys**2 / (2 * self.radii[1])
-        if self.semi_axes[0] == 0:
-            return np.asarray(undeformed)
-        return np.asarray(undeformed - self.approach + self.surface_displacement(xs, ys))

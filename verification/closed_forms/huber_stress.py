@@ -16,6 +16,8 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class AxisymmetricStress:
@@ -25,10 +27,10 @@ class AxisymmetricStress:
     shear                shear stress σ_rz
     """
 
-    radial: NDArray[np.float64]
-    hoop: NDArray[np.float64]
-    axial: NDArray[np.float64]
-    shear: NDArray[np.float64]
+    radial: Array
+    hoop: Array
+    axial: Array
+    shear: Array
 
 
 def huber_stress(
@@ -88,9 +90,7 @@ def axis_stress(
     return AxisymmetricStress(radial, radial, axial, np.zeros_like(axial))
 
 
-def sliding_axis_shear(
-    z: ArrayLike, contact_radius: float, peak_shear: float
-) -> NDArray[np.float64]:
+def sliding_axis_shear(z: ArrayLike, contact_radius: float, peak_shear: float) -> Array:
     """Compute the shear stress τ_xz on the axis below a Hertz contact in gross slip along x
     [force/length²].
 
@@ -105,7 +105,7 @@ def sliding_axis_shear(
     return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
 
 
-def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _depth(z: ArrayLike, a: float) -> tuple[Array, Array]:
     """Return the depth over the contact radius, d = z/a, and d arctan(1/d); ValueError for z < 0.
 
     The second term occurs in the closed forms of the stress on the axis.
@@ -123,7 +123,7 @@ def _require_half_space(a: float, p0: float, nu: float) -> None:
 
 def stress_by_hertz_shear(
     x: ArrayLike, contact_radius: float, peak_shear: float, poisson_ratio: float
-) -> NDArray[np.float64]:
+) -> Array:
     """Compute the surface stress σ_xx at (x, 0) by the shear of a Hertz contact in gross slip
     [force/length²].
 
@@ -154,7 +154,7 @@ def stress_by_hertz_shear(
 
 def stress_by_hertz_pressure(
     x: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
-) -> NDArray[np.float64]:
+) -> Array:
     """Compute the surface stress σ_xx at (x, 0) by the Hertz pressure p0 √(1-r²/a²)
     [force/length²].
 
@@ -186,7 +186,7 @@ def hamilton_stress(
     peak_pressure: float,
     peak_shear: float,
     poisson_ratio: float,
-) -> NDArray[np.float64]:
+) -> Array:
     """Compute all stress components below a Hertz contact in gross slip along x [force/length²].
 
     Returns an array (6, …) in the order xx, yy, zz, yz, xz, xy, tension positive.
@@ -220,9 +220,9 @@ def hamilton_stress(
 
 
 def _point_stress(
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    z: NDArray[np.float64],
+    x: Array,
+    y: Array,
+    z: Array,
     deep: NDArray[np.complex128],
     nu: float,
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:

@@ -14,6 +14,8 @@ from math import asin, cos, log, pi, sin, sqrt, tan
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class CylinderContact:
@@ -52,7 +54,7 @@ class CylinderContact:
         far = 1.5 + 2 * log(2 * self.distance / self.contact_radius)
         return self.load**2 / 2 * far / (pi * self.modulus)
 
-    def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike) -> Array:
         """Compute the pressure p₀ √(1 - x²/a²) at a distance from the middle [force/length²].
 
         x  distance [length]
@@ -126,7 +128,7 @@ class PushedCylinder:
         """
         return self.energy_per_cycle / 4
 
-    def shear(self, x: ArrayLike, y: ArrayLike = 0.0) -> NDArray[np.float64]:
+    def shear(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
         """Compute the shear µp(x) - µp_c(x - e) along the force [force/length²].
 
         x, y  coordinates of the points [length]
@@ -153,7 +155,7 @@ class WedgeContact:
         """Half width a = W/(E* tan α) [length]."""
         return self.load / (self.modulus * tan(self.slope_angle))
 
-    def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike) -> Array:
         """Compute the pressure E* tan α arcosh(a/|x|)/π [force/length²].
 
         x  distance from the edge of the wedge, not 0 [length]
@@ -184,7 +186,7 @@ class FlatStrip:
         """Tilt 4M/πE*b² [radian]."""
         return 4 * self.moment / (pi * self.modulus * self.contact_radius**2)
 
-    def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
         """Compute the pressure (W + 2Mx/b²)/(π√(b² - x²)) inside the edges [force/length²].
 
         x, y  coordinates of the points [length]

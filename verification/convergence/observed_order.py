@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import stdtrit
+
+from contact_scene.array_types import Vector
 
 CONFIDENCE = 0.95
 # An order is known well enough to be judged if its interval is no wider than this.
@@ -28,8 +29,6 @@ LEAST_TOLD = 0.001
 ORDERS = (0.05, 6.0)
 COARSE_STEPS = 60
 ROUNDING = 1e-20
-
-Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,6 @@ def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...
 
 
 HEIGHT = 2.4
-BELOW = 0.6  # slope lines run under the data, by this factor
 
 Points = Sequence[tuple[float, float]]
 
@@ -122,13 +121,11 @@ def log_chart(
     curves: Iterable[Curve],
     *,
     height: float = HEIGHT,
-    y_places: tuple[str, ...] = (),
 ) -> Chart:
     """Create a chart of one panel with logarithmic axes, for instance for errors against cell size.
 
     x_label, y_label  labels of the axes
     height            height of the panel; the unit is 1.5 inches
-    y_places          names of the positions 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
         x_label=x_label,
@@ -136,7 +133,6 @@ def log_chart(
         curves=tuple(curves),
         logarithmic=True,
         height=height,
-        y_places=y_places,
     )
     return Chart(name=name, title=title, caption=caption, rows=((panel,),))
 

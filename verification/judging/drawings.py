@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from semi_analytical.grid import SurfaceGrid
 from verification.convergence.observed_order import (
     ErrorLine,
@@ -115,7 +115,7 @@ def _error_curves(
     return curves
 
 
-def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
+def _confidence_band(line: ErrorLine, ends: Field, series: int) -> Curve:
     """Return the outline of the 95 % confidence band of a line that is fitted to errors, as a chart
     curve.
 
@@ -128,7 +128,6 @@ def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) ->
     return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)
 
 
-Field = NDArray[np.float64]
 ALONG_X = 1.15  # contact radii to each side of the axis
 
 
@@ -150,7 +149,7 @@ class Section:
         return self.grid.cells[1] // 2
 
     @property
-    def _plotted_cells(self) -> NDArray[np.bool_]:
+    def _plotted_cells(self) -> Mask:
         return np.asarray(np.abs(self.grid.x) <= ALONG_X * self.radius)
 
     @property

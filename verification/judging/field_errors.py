@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import laplace
 
+from contact_scene.array_types import Field, Mask
 from verification import norms
 from verification.norms import cell_means
 from verification.observed import ring_errors
@@ -28,7 +28,6 @@ from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.problem import FRICTION, OVER_PEAK, Problem
 from verification.quantities import shear_of
 
-Field = NDArray[np.float64]
 # Half-width of the excluded zone around a stick edge, over the contact radius.
 AT_EDGE = 0.1
 
@@ -115,7 +114,7 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
     return ring_errors.relative_l1(end, end.shear_along_load, exact, problem.radius) / FRICTION
 
 
-def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
+def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> Mask:
     """Select radii that lie inside the contact and not close to an edge of a stick zone.
 
     The exact shear has a cusp at the edge of a stick zone, where computed errors are large. Returns
@@ -216,7 +215,7 @@ def tabulated_pressure_error(result: Any, _: int, problem: Problem) -> float:
     return float(np.max(error) / problem.scale(OVER_PEAK))
 
 
-def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_]]:
+def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, Mask]:
     """Compute the errors of the final radial shear at the radii of a reference table, over µp_H
     [1].
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Increment, Result
 from verification.observed.contact_state import (
@@ -22,8 +22,6 @@ from verification.observed.contact_state import (
     ContactState,
 )
 from verification.observed.ring_errors import is_corrected
-
-Field = NDArray[np.float64]
 
 # Accepted energy error of the edge correction over (h/a)²: ten times that of a point contact.
 EDGES = 0.125

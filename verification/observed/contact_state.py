@@ -13,9 +13,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import ControlKind, Scene
+from contact_scene.array_types import Field, Mask
 from contact_scene.rig import prescribed_motions
 
 if TYPE_CHECKING:
@@ -101,9 +101,6 @@ def largest_of(found: Iterable[float]) -> float:
     numbers = list(found)
     return max(numbers, default=0.0) if np.all(np.isfinite(numbers)) else float("inf")
 
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 LEAST_SLIP = 1e-3  # smallest scale of slip over the sliding distance µδ
 # Rounding error of slip over the approach. Slip is the small difference of two motions of the size

@@ -14,9 +14,9 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import IsotropicMaterial
+from contact_scene.array_types import Field
 from fem_reference import Increment, Path, Result
 from fem_reference.compliance.gauss_points import gauss_points
 from fem_reference.elasticity.hat_functions import TractionBasis
@@ -29,8 +29,6 @@ from verification.observed.contact_state import (
     Balance,
     ContactState,
 )
-
-Field = NDArray[np.float64]
 
 ANGULAR = (Path.HARMONICS, Path.WHOLE_CIRCLE)
 TWISTED = (Path.TWISTING, Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE)

@@ -17,9 +17,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS
 from radial import Increment, Result
 from verification.observed.contact_state import (
@@ -29,8 +29,6 @@ from verification.observed.contact_state import (
     ContactState,
 )
 from verification.observed.ring_displacement import RingDisplacement, angle_weights
-
-Field = NDArray[np.float64]
 
 # Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
 # contact on hat functions.

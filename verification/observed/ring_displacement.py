@@ -19,14 +19,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.array_types import Field
 from radial.response.wavenumbers import waves as wave_quadrature
 from radial.tangential.ring_energies import bessel_functions
 from semi_analytical.frf.response_matrix import surface_response
-
-Field = NDArray[np.float64]
 
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an
 # error of 3e-5 for the rings of the solver, of which the smallest are 1/1000 of this radius apart.

@@ -9,9 +9,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from contact_scene.array_types import Field
 from semi_analytical.grid import SurfaceGrid
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     Result: TypeAlias = semi_analytical.Result | fem_reference.Result
     from fem_reference import Increment
-    from fem_reference.compliance.angular_grid import AngularGrid
 
 
 def normal_force(result: Result) -> float:
@@ -93,7 +92,6 @@ def is_corrected(increment: Any) -> bool:
     return report is not None and report.cause is None
 
 
-Field = NDArray[np.float64]
 SHOWN = 1.1  # largest radius of charts and integrals, in contact radii
 IN_ELEMENT = 40  # integration points per element
 
@@ -196,47 +194,6 @@ def judged_within(elements: int) -> float:
     elements  number of elements per contact radius
     """
     return min(0.9, 1 - 5 / elements)
-
-
-def tractions_at(increment: Increment, x: Field, y: Field) -> tuple[Field, Field]:
-    """Evaluate shear and pressure of a finite element increment at arbitrary points of the surface.
-
-    The tangential load is along x. The interpolation is that of the solution: linear between rings,
-    the trigonometric polynomial through the points of a ring, and zero beyond the last ring.
-    Returns the shear (2, …) along x and y, and the pressure (…) [force/length²].
-
-    x, y  positions, of any shape [length]
-    """
-    r, theta = np.hypot(x, y), np.arctan2(y, x)
-    grid = _grid_of(increment)
-    rings = len(increment.radii)
-    parts = (increment.shear_radial, increment.shear_circumferential, increment.pressure)
-    values = np.zeros((3, rings, grid.points))
-    for value, part in zip(values, parts, strict=True):
-        if part is not None:
-            value[:] = part.reshape(rings, -1)
-    found, modes = np.zeros((3, r.size)), grid.modes(theta.ravel())
-    for family, waves in zip(grid.amplitudes(values), modes, strict=True):
-        for component, amplitude, wave in zip(found, family, waves, strict=True):
-            between = [np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T]
-            component += np.sum(np.stack(between) * wave, axis=0)
-    q_r, q_theta, p = found.reshape(3, *r.shape)
-    q = np.stack(
-        [
-            q_r * np.cos(theta) - q_theta * np.sin(theta),
-            q_r * np.sin(theta) + q_theta * np.cos(theta),
-        ]
-    )
-    if increment.shear_along_load is not None:
-        f = np.interp(r, increment.radii, increment.shear_along_load, right=0.0)
-        q[0] += f
-    return q, p
-
-
-def _grid_of(increment: Increment) -> AngularGrid:
-    from fem_reference.compliance.angular_grid import axisymmetric_grid, grid_at
-
-    return axisymmetric_grid() if increment.angles is None else grid_at(increment.angles)
 
 
 DIRECTIONS = 16

@@ -147,7 +147,6 @@ OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # largest tangential force T* over µW, and torque over that of gross slip
 # loading steps that end at T*, -T*, T*
 LOADED = 2
-UNLOADED = 3
 RELOADED = 4
 PRESSED = 1
 FRETTING_WINDOW = 2.2  # side of the window over the contact radius

@@ -18,7 +18,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import (
     RIGID,
@@ -30,6 +29,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.geometry import Indenter
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.frf.surface import scalars
@@ -223,7 +223,7 @@ def surface_of(*bodies: Body) -> LayeredSurface:
     """
     stacks = [stack_of(body) for body in bodies if body.deforms]
 
-    def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
+    def compliance(k: Field) -> Field:
         return np.asarray(sum(scalars(stack, k).c22 for stack in stacks))
 
     outer = sum((1 - stack.outer.poisson_ratio) / stack.outer.shear_modulus for stack in stacks)
@@ -261,12 +261,12 @@ class ShiftedGrid(SurfaceGrid):
     offset: tuple[float, float] = (0.0, 0.0)
 
     @property
-    def x(self) -> NDArray[np.float64]:
+    def x(self) -> Field:
         """Coordinates x of the cell centres relative to the contact axis (nx,) [length]."""
         return np.asarray(super().x + self.offset[0] * self.spacing[0])
 
     @property
-    def y(self) -> NDArray[np.float64]:
+    def y(self) -> Field:
         """Coordinates y of the cell centres relative to the contact axis (ny,) [length]."""
         return np.asarray(super().y + self.offset[1] * self.spacing[1])
 
@@ -326,7 +326,6 @@ def identity(value: float, source: str) -> Reference:
     return Reference(value, ReferenceKind.IDENTITY, source)
 
 
-Field = NDArray[np.float64]
 OVER_RADIUS = "the contact radius"
 OVER_PEAK = "p_H"
 

@@ -14,7 +14,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -228,29 +228,18 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
         by=recorded_by(provenance, reason),
         status=case.status,
         quantities=tuple(
-            RecordedQuantity(
-                name=v.name,
-                run=v.run,
-                tolerance_kind=v.tolerance_kind,
-                unit=v.unit,
-                value=v.value,
-                reference=v.reference,
-                allowed=v.most_allowed,
-                status=v.status,
-                covered=v.covered,
-                stated_error=v.stated_error,
-            )
+            RecordedQuantity(**_fields(RecordedQuantity, v) | {"allowed": v.most_allowed})
             for v in case.verdicts
         ),
         findings=tuple(
-            RecordedFinding(name=f.name, run=f.run, unit=f.unit, value=f.value)
-            for f in case.findings
+            RecordedFinding(**_fields(RecordedFinding, finding)) for finding in case.findings
         ),
-        runs=tuple(
-            RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})
-            for run in case.runs
-        ),
+        runs=tuple(RecordedRun(**_fields(RecordedRun, run)) for run in case.runs),
     )
+
+
+def _fields(record: type[Description], source: Description) -> dict[str, Any]:
+    return {name: getattr(source, name) for name in record.model_fields}
 
 
 def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
@@ -262,14 +251,11 @@ def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
     processor, python = machine.get("arithmetic", machine.get("processor")), machine.get("python")
     return RecordedBy(
         reason=reason,
-        command=provenance.command,
-        date=provenance.date,
-        commit=provenance.commit,
-        changed=provenance.changed,
-        program_version=provenance.program_version,
         processor=None if processor is None else str(processor),
         python=None if python is None else str(python),
-        libraries=provenance.libraries,
+        **provenance.model_dump(
+            include={"command", "date", "commit", "changed", "program_version", "libraries"}
+        ),
     )
 
 

@@ -29,7 +29,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from multiprocessing import resource_tracker
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 from contact_results.blas_threads import one_thread
 from contact_results.directory.atomic_file import atomic_file
@@ -121,21 +121,59 @@ def _record_digest(values: Any) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
 
+@dataclass(frozen=True)
+class Answer:
+    """Reply of a worker process for one case of a study.
+
+    record  record of the case, or as text the reason why there is no record
+    code    digest of the source code that the worker used
+    """
+
+    record: Description | str
+    code: bytes
+
+
+class Workers:
+    """Pool of workers that compute the cases of a study.
+
+    elsewhere  True if the workers may have other source code than this process
+    """
+
+    elsewhere = False
+
+    def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
+        """Call a function with a case of a study in a worker and return the future of its reply.
+
+        The future raises BrokenProcessPool if the worker dies.
+        """
+        raise NotImplementedError
+
+    def lost(self) -> Sequence[str]:
+        """Return the network addresses of workers of the pool that have died since the last call.
+
+        A worker of this machine that dies is reported with its case instead.
+        """
+        return ()
+
+    def deserted(self) -> str:
+        """Return the reason why no case will be computed any more; empty as long as one may be."""
+        return ""
+
+    def close(self) -> None:
+        """Cancel the calls that have not started, and release the worker processes of the pool."""
+
+
 # A new interpreter inherits no locks or threads of the parent's libraries.
 START = "spawn"
 
-T = TypeVar("T")
 
-
-class LocalWorkers:
+class LocalWorkers(Workers):
     """Pool of worker processes on this machine, which compute the cases of a study.
 
     A worker that is killed affects only its own case.
 
     processes  largest number of workers
     """
-
-    elsewhere = False
 
     def __init__(self, processes: int) -> None:
         # Workers inherit the environment. They share the cores, and a record must not depend on who
@@ -146,32 +184,17 @@ class LocalWorkers:
         self._own = threading.local()
         self._all: list[ProcessPoolExecutor] = []
 
-    def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call a function in a worker process and return the future of its result.
-
-        The future raises BrokenProcessPool if the worker dies.
-        """
-        return self._threads.submit(self._call, compute, *arguments)
-
-    def lost(self) -> list[str]:
-        """Return an empty list: a local worker that dies is reported with its case and not as a
-        lost worker."""
-        return []
-
-    def deserted(self) -> str:
-        """Return an empty text, because a local worker that dies is replaced."""
-        return ""
+    def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
+        return self._threads.submit(self._call, compute, case)
 
     def close(self) -> None:
-        """Cancel the function calls that have not started, and end the worker processes of the
-        pool."""
         self._threads.shutdown(cancel_futures=True)
         for worker in self._all:
             worker.shutdown()
 
-    def _call(self, compute: Callable[..., T], *arguments: object) -> T:
+    def _call(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Answer:
         try:
-            return self._worker().submit(compute, *arguments).result()
+            return self._worker().submit(compute, case).result()
         except BrokenProcessPool:
             del self._own.worker
             raise
@@ -185,33 +208,16 @@ class LocalWorkers:
         return worker
 
 
-class ThisProcess:
+class ThisProcess(Workers):
     """Pool without worker processes, which calls functions in the current process.
 
     Used where starting workers would cost more than the computation.
     """
 
-    elsewhere = False
-
-    def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call a function immediately in this process and return its completed future."""
-        future: Future[T] = Future()
-        try:
-            future.set_result(compute(*arguments))
-        except Exception as error:
-            future.set_exception(error)
+    def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
+        future: Future[Answer] = Future()
+        future.set_result(compute(case))
         return future
-
-    def lost(self) -> list[str]:
-        """Return an empty list of dead workers, because this pool has no worker processes."""
-        return []
-
-    def deserted(self) -> str:
-        """Return an empty text, because this pool needs no worker processes."""
-        return ""
-
-    def close(self) -> None:
-        """Do nothing: this pool has no pending calls and no worker processes."""
 
 
 def _remove_semaphores_silently() -> None:
@@ -283,41 +289,6 @@ class CaseEnd:
 
 
 Observer = Callable[[CaseEnd], None]
-
-
-@dataclass(frozen=True)
-class Answer:
-    """Reply of a worker process for one case of a study.
-
-    record  record of the case, or as text the reason why there is no record
-    code    digest of the source code that the worker used
-    """
-
-    record: Description | str
-    code: bytes
-
-
-class Workers(Protocol):
-    """Interface of a pool of worker processes that compute the cases of a study.
-
-    elsewhere  True if the workers may have other source code than this process
-    """
-
-    @property
-    def elsewhere(self) -> bool: ...
-
-    def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call a function with a case of a study in a worker and return the future of its reply."""
-
-    def lost(self) -> Sequence[str]:
-        """Return the network addresses of workers of the pool that have died since the last
-        call."""
-
-    def deserted(self) -> str:
-        """Return the reason why no case will be computed any more; empty as long as one may be."""
-
-    def close(self) -> None:
-        """Cancel the calls that have not started, and release the worker processes of the pool."""
 
 
 def run_cases(
@@ -453,7 +424,7 @@ class ClusterUnavailable(Exception):
     """
 
 
-class ClusterWorkers:
+class ClusterWorkers(Workers):
     """Pool of the workers of a dask cluster, which compute the cases of a study.
 
     The workers must have the same sources of slipstick; they need no common disk. Certificates for
@@ -490,13 +461,10 @@ class ClusterWorkers:
         self._last_seen = time.monotonic()  # a worker, or none was ever there
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call a function with a case of a study in a worker of the cluster; return the future of
-        its reply."""
         future: Future[Answer] = self._executor.submit(compute, case)
         return future
 
     def lost(self) -> list[str]:
-        """Return the network addresses of workers that left the cluster since the last call."""
         try:
             now = set(self._client.nthreads())
         except OSError:  # the scheduler has gone: every case that is left tells so
@@ -517,7 +485,5 @@ class ClusterWorkers:
         )
 
     def close(self) -> None:
-        """Cancel the cases that have not ended, and disconnect from the cluster, which continues to
-        run."""
         self._executor.shutdown(wait=False)
         self._client.close()

@@ -48,16 +48,6 @@ class Row(Description):
     words: dict[str, str] = Field(default_factory=dict)
     """Texts, such as kinds of outcomes and reasons."""
 
-    def number(self, name: str) -> float | None:
-        """Return the parameter, counter or measured value with a name; None for a text or an
-        unknown name.
-
-        If several have the name, a parameter has priority over a counter, and a counter over a
-        measured value.
-        """
-        known: Any = {**self.measures, **self.counters, **self.parameters}.get(name)
-        return None if isinstance(known, str) else known
-
 
 def value_of(row: Row, name: str) -> float:
     """Return a measured value of a study row by name, where the value must be known.
@@ -78,11 +68,8 @@ class CaseRecord(Row):
 
     seconds: float = 0.0
     """CPU time [s]: as measured by the case, or of the worker's whole work on it. Apart from
-    `clock` and `repeats`, only this value differs between equal runs.
+    `repeats`, only this value differs between equal runs.
     """
-
-    clock: dict[str, float] = Field(default_factory=dict)
-    """CPU seconds of parts of the case, by name; they differ between runs."""
 
     repeats: int = 1
     """Number of solves whose median time is `seconds`."""
@@ -98,8 +85,6 @@ class TypedRow(Description):
     PARAMETERS: ClassVar[tuple[str, ...]] = ()
     """Names of the fields that are stored as parameters."""
 
-    UNITS: ClassVar[Mapping[str, str]] = {}
-
     def row(self) -> Row:
         """Convert the object with typed values to a `Row`, the form in which a study stores its
         rows."""
@@ -110,7 +95,6 @@ class TypedRow(Description):
         return Row(
             parameters=parameters,
             measures={n: v for n, v in values.items() if n not in words and n not in counters},
-            units={name: unit for name, unit in self.UNITS.items() if name in values},
             counters=counters,
             words=words,
         )
@@ -292,11 +276,6 @@ class Conclusion(Description):
     remarks: tuple[str, ...] = ()
     """Assumptions, and limits of the study."""
 
-    @property
-    def failed(self) -> bool:
-        """True if any claim of the study has failed."""
-        return any(statement.outcome is Status.FAIL for statement in self.statements)
-
 
 Records = Mapping[str, CaseRecord]
 
@@ -429,19 +408,6 @@ def judged(good: bool, *, complete: bool = True) -> Status:
     return Status.PASS if good else Status.FAIL
 
 
-def largest(rows: Iterable[Row], name: str) -> float:
-    """Return the largest magnitude of a measured value over the rows of a study that have this
-    value.
-
-    The result is infinite if a value is null, which represents a number that is not finite. Without
-    such rows it is 0.
-
-    name  name of the measured value
-    """
-    values = [row.measures[name] for row in rows if name in row.measures]
-    return max((math.inf if v is None else abs(v) for v in values), default=0.0)
-
-
 def total(rows: Iterable[Row], counter: str) -> int:
     """Return the sum of a counter, such as "iterations", over the rows of a study.
 
@@ -466,14 +432,7 @@ def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
     )
 
 
-def converged(
-    rows: Sequence[Row],
-    tolerance: float,
-    where: str,
-    *,
-    claim: str = "every increment converged",
-    asked: int = 0,
-) -> Statement:
+def converged(rows: Sequence[Row], tolerance: float, where: str) -> Statement:
     """Create the statement of a study that all increments converged, with its outcome.
 
     The claim holds if the largest residual of each case is within the tolerance.
@@ -481,46 +440,14 @@ def converged(
     rows       records with the largest residual of each case
     tolerance  largest residual that is allowed [1]
     where      words appended to the residual
-    claim      text of the claim
-    asked      number of required rows; with fewer rows the outcome is inconclusive
     """
-    worst = largest(rows, RESIDUAL)
+    residuals = [row.measures[RESIDUAL] for row in rows]
+    # A residual that is null is not finite.
+    worst = max((math.inf if one is None else one for one in residuals), default=0.0)
     return Statement(
-        claim=claim,
-        outcome=judged(worst <= tolerance, complete=len(rows) >= asked),
-        measured=f"largest residual {_study_text(worst)} {where}",
+        claim="every increment converged",
+        outcome=judged(worst <= tolerance),
+        measured=f"largest residual {plain(finite(worst), 2)} {where}",
         because=f"allowed {tolerance:g}",
-        about=_measures_row({RESIDUAL: worst}),
+        about=Row(measures={RESIDUAL: finite(worst)}),
     )
-
-
-def within(
-    what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
-) -> Statement:
-    """Create the statement of a study that no measured value exceeds its limit in any row, with
-    outcome.
-
-    A row may lack measured values.
-
-    what     start of the claim
-    allowed  limits by name of the measured value
-    because  reason for the limits
-    asked    number of required rows; with fewer rows the outcome is inconclusive
-    """
-    worst = {name: largest(rows, name) for name in allowed}
-    limits = ", ".join(f"{name} ≤ {plain(most)}" for name, most in allowed.items())
-    return Statement(
-        claim=f"{what}: {limits}",
-        outcome=judged(all(worst[n] <= allowed[n] for n in allowed), complete=len(rows) >= asked),
-        measured=", ".join(f"{name} {_study_text(error)}" for name, error in worst.items()),
-        because=because,
-        about=_measures_row(worst),
-    )
-
-
-def _study_text(value: float) -> str:
-    return plain(finite(value), 2)
-
-
-def _measures_row(values: Mapping[str, float]) -> Row:
-    return Row(measures={name: finite(value) for name, value in values.items()})

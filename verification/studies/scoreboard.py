@@ -6,7 +6,7 @@ A challenge is a contact problem with a known solution.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -21,8 +21,8 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import (
     PEERS,
+    installed_version,
     make_answer_function,
-    peers_environment,
 )
 from verification.running.study import (
     CaseRecord,
@@ -64,8 +64,7 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """File name of the record of the judgement: the code and the benchmark problem
-        (challenge)."""
+        """File name of the record of the judgement: the code and the challenge."""
         return "".join(c if c.isalnum() else "-" for c in f"{self.code}-{self.challenge}")
 
     def compute(self) -> CaseRecord:
@@ -90,17 +89,13 @@ class ScoredRun:
             solver = replace(solver, version=program_version())
             return judge(self.challenge, answer, self.levels, solver=solver, seconds=None)
         (peer,) = (peer for peer in PEERS if peer.name == self.code)
-        installed = peers_environment()
-        if reason := installed.missing.get(peer.distribution):
-            raise CannotDo(f"could not be installed: {reason}")
-        solve = make_answer_function(installed.python, peer)
-        version = peer.distribution.partition("==")[2]
-        described = Solver(peer.name, version)
+        described = Solver(peer.name, installed_version(peer.module))
+        solve = make_answer_function(peer)
         return judge(self.challenge, solve, self.levels, solver=described, seconds=None)
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Return the cases of the study: each code on each benchmark problem (challenge)."""
+    """Return the cases of the study: each code on each challenge."""
     codes = (*OURS, *(peer.name for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
@@ -114,17 +109,6 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     codes = list(dict.fromkeys(run.code for run, _ in runs))
     found = {(run.challenge, run.code): record for run, record in runs}
     versions = {run.code: record.words[VERSION] for run, record in runs if VERSION in record.words}
-    board = Table(
-        title="Classes by challenge and code",
-        columns=("challenge", *codes),
-        rows=tuple(
-            (name, *(_class_text(found.get((name, code))) for code in codes))
-            for name in challenges()
-        ),
-        note="Verdicts that pass of all; class A is 1e-4 of a stated scale, B 1e-3, C 1e-2, on the "
-        "finest of the levels; partial: something required is not answered.",
-        units=NONE,
-    )
     return Conclusion(
         statements=tuple(
             Statement(
@@ -137,8 +121,18 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
         "codes with cells of constant traction share one error; who differs is told below.",
         tables=(
-            board,
-            _cpu_time_table(found, codes),
+            _table_by_code(
+                "Classes by challenge and code",
+                found,
+                codes,
+                _class_text,
+                "Verdicts that pass of all; class A is 1e-4 of a stated scale, B 1e-3, C 1e-2, on "
+                "the finest of the levels; partial: something required is not answered.",
+            ),
+            # As measured, or as the code itself reports.
+            _table_by_code(
+                "CPU seconds of all levels", found, codes, lambda record: plain(record.seconds, 2)
+            ),
             Table(
                 title="Largest errors",
                 columns=("challenge", "quantity", *codes),
@@ -178,41 +172,32 @@ def _record_judgement(
     )
 
 
-def _class_text(record: CaseRecord | None) -> str:
-    if record is None or CANNOT in record.words:
-        return NO_ANSWER
-    passed, all_verdicts = (
-        record.counters[Status.PASS],
-        sum(record.counters[status] for status in Status),
-    )
-    return f"{record.words[GRADE]}, {passed} of {all_verdicts}"
-
-
-def _cpu_time_table(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
-    """Build the table of the CPU time [s] of all refinement levels, by challenge and code.
-
-    The times are measured, or reported by the code itself.
+def _table_by_code(
+    title: str,
+    found: dict[tuple[str, str], CaseRecord],
+    codes: list[str],
+    text: Callable[[CaseRecord], str],
+    note: str = "",
+) -> Table:
+    """Build a table with one row per challenge and one column per code.
 
     found  records by challenge and code
     codes  names of the codes
+    text   function from the record of an answered challenge to the text of its cell
     """
-    return Table(
-        title="CPU seconds of all levels",
-        columns=("challenge", *codes),
-        rows=tuple(
-            (
-                name,
-                *(
-                    plain(record.seconds, 2)
-                    if (record := found.get((name, code))) and CANNOT not in record.words
-                    else NO_ANSWER
-                    for code in codes
-                ),
-            )
-            for name in challenges()
-        ),
-        units=NONE,
+
+    def cell(record: CaseRecord | None) -> str:
+        return NO_ANSWER if record is None or CANNOT in record.words else text(record)
+
+    rows = tuple(
+        (name, *(cell(found.get((name, code))) for code in codes)) for name in challenges()
     )
+    return Table(title=title, columns=("challenge", *codes), rows=rows, note=note, units=NONE)
+
+
+def _class_text(record: CaseRecord) -> str:
+    all_verdicts = sum(record.counters[status] for status in Status)
+    return f"{record.words[GRADE]}, {record.counters[Status.PASS]} of {all_verdicts}"
 
 
 def _largest_error_rows(

@@ -10,10 +10,10 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 from contact_results.surface import surface_of
+from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid
@@ -54,7 +54,6 @@ from verification.norms import round_means
 from verification.problems.cattaneo_mindlin import (
     FRETTING_WINDOW,
     OVER_LIMIT,
-    ExactLoop,
     fretting_loop_problem,
     sheared,
 )
@@ -83,12 +82,9 @@ from verification.running.study import (
     value_of,
 )
 
-Field = NDArray[np.float64]
 Errors = Mapping[str, float]
 
 SHEARED = 0.9  # of µW
-LOOPED = ExactLoop(NU_ZERO)
-LARGEST = LOOPED.end.shift
 QUARTER = 3  # increments from T = 0 to the largest
 JUDGED = (0.1 - 1e-9, 0.9 + 1e-9)  # part of the radius where the tractions under friction are
 

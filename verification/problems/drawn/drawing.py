@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from contact_errors.error_formula import Values
@@ -32,6 +31,7 @@ from contact_scene import (
     Sphere,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Field
 from contact_scene.discretised import DiscretisedSolver
 from contact_scene.friction import FrictionMap
 from contact_scene.geometry import ShapedBody
@@ -314,7 +314,7 @@ class Profile(ShapedBody):
         """Exponent of the gap at the point of first touch; None for a flat or a ring."""
         return None if self.flat or self.ring else self.power
 
-    def initial_gap(self, x: Any, y: Any) -> NDArray[np.float64]:
+    def initial_gap(self, x: Any, y: Any) -> Field:
         """Compute the gap between the undeformed surfaces at points (x, y) [length]."""
         r = np.maximum(np.abs(np.hypot(x, y) - self.ring) - self.flat, 0.0)
         return np.asarray(r**self.power / (self.power * self.scale ** (self.power - 1)))

@@ -17,7 +17,6 @@ from typing import Any, NamedTuple, TypeVar
 from zlib import crc32
 
 import numpy as np
-from numpy.typing import NDArray
 
 import radial
 import semi_analytical
@@ -35,6 +34,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Array
 from contact_scene.body_pair import contact_modulus, coupling
 from contact_scene.contact_features import AT_EDGES
 from contact_scene.geometry import ShapedBody
@@ -112,8 +112,6 @@ def stress_maxima(
         if e.region == WHOLE
     }
 
-
-Array = NDArray[np.float64]
 
 BY_MOTION = 0.3  # fraction of the scenes with prescribed motions
 ROOM = 1.5  # smallest distance of an eccentric contact from the window edge, in cells

@@ -280,7 +280,7 @@ def _level_table(levels: Levels, of: Sequence[Estimate]) -> Table:
             "increments": lambda row: str(row[1].counters.get("increments", "–")),
             **{label(one.name): value(one) for one in of},
             "largest residual": lambda row: (
-                row[1].words.get("refused") or plain(row[1].number(RESIDUAL), 2)
+                row[1].words.get("refused") or plain(row[1].measures.get(RESIDUAL), 2)
             ),
         },
         [(what, record) for what, records in levels for record in records],

@@ -14,7 +14,6 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 import fem_reference
 from contact_scene import (
@@ -33,6 +32,7 @@ from contact_scene import (
     Scene,
     SceneError,
 )
+from contact_scene.array_types import Field
 from contact_scene.solver_errors import (
     GrossSliding,
     NotConverged,
@@ -107,8 +107,6 @@ class Solver(StrEnum):
 @dataclass(frozen=True)
 class StabilityCell:
     """One contact of the stability map, as plain values from which its scene is built.
-
-    The stability map shows which contacts the solvers can solve.
 
     friction        coefficient of friction µ
     push            tangential force T over µW
@@ -723,8 +721,6 @@ def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
             )
 
 
-Field = NDArray[np.float64]
-
 RADIUS = 46.4  # of the ball, over the contact radius: the paper's
 SLOPE = 0.02
 # half the window over the contact radius
@@ -764,8 +760,7 @@ class Posed:
 def pose(cell: StabilityCell) -> Posed:
     """Build the scene and the discretisation of a contact of the stability map.
 
-    The stability map shows which contacts the solvers can solve. Raises SceneError for an invalid
-    scene.
+    Raises SceneError for an invalid scene.
 
     cell  values that define the contact
     """
@@ -1009,9 +1004,8 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 def judge_contact(cell: StabilityCell) -> CellRecord:
     """Solve a contact of the stability map and return its verdict, residuals and cost.
 
-    The stability map shows which contacts the solvers can solve. Errors of the scene or the solver
-    become verdicts and are not raised. A result whose residuals exceed the allowed values is wrong
-    without a message.
+    Errors of the scene or the solver become verdicts and are not raised. A result whose residuals
+    exceed the allowed values is wrong without a message.
     """
     try:
         posed = pose(cell)

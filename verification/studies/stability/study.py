@@ -278,9 +278,9 @@ THOUSANDS = 10_000  # from here on the cost is rounded to them
 def class_of(record: CellRecord) -> int:
     """Return the legend class of a contact in the stability map: 0 (best) to 5 (worst).
 
-    The stability map shows which contacts the solvers can solve. Classes 0 to 2 are converged
-    contacts, by the ratio of residual to allowed residual. Classes 3 to 5 are refused contacts,
-    contacts that did not converge, and wrong results returned as converged.
+    Classes 0 to 2 are converged contacts, by the ratio of residual to allowed residual. Classes 3
+    to 5 are refused contacts, contacts that did not converge, and wrong results returned as
+    converged.
     """
     if record.verdict in ENDS:
         return ENDS[record.verdict]
