@@ -13,8 +13,6 @@ from contact_scenes import LIMIT, LOAD, RADIUS, grid, hertz, steel
 import fem_reference
 import radial
 import semi_analytical
-from contact_results.figures.profile_plot import profile_plot
-from contact_results.result_report import ResultReport
 from contact_scene import (
     RIGID,
     Body,
@@ -154,13 +152,6 @@ def number(value: Any) -> float:
     return 0.0 if value is None else float(np.ravel(value)[0])
 
 
-@pytest.mark.parametrize("solve", [on_cells, on_rings, *ELEMENTS.values()])
-def test_a_force_between_the_limit_of_the_law_and_that_of_its_coefficient_slides(law, solve):
-    push = LoadStep(tangential_force=(0.9 * LIMIT, 0.0))
-    with pytest.raises(GrossSliding):
-        solve(scene(LoadStep(normal_force=LOAD), push, coupled=False))
-
-
 def radial_map(mu: Callable[[Any], Any], count: int = 201, **placed: Any) -> FrictionMap:
     """A map over 5 contact radii of a coefficient that is a function of r/a."""
     side = 5 * hertz().contact_radius / count
@@ -288,14 +279,3 @@ def test_the_asymmetry_of_a_map_is_a_part_of_stated_errors(load: LoadStep) -> No
     for neglected in (rings.neglected_errors(None), elements.neglected_errors(cast("Any", plans))):
         assert min(neglected.values()) >= nearly.asymmetry
         assert {"tangential_shift", "twist", "dissipated_energy"} <= set(neglected)
-
-
-@pytest.mark.parametrize(("solve", "load"), [(on_cells, PUSH), (on_rings, TWIST)])
-def test_the_profile_shows_the_limit_of_a_map(solve, load: LoadStep) -> None:
-    asked = scene(PRESS, load, coupled=False)
-    bands = []
-    for mu in (0.1, radial_map(lambda x: 0.2 + 1e-6 * x**2)):
-        result = solve(with_friction(asked, mu))
-        (band,) = profile_plot(ResultReport.of(result)).axes[1].collections
-        bands.append(np.max(band.get_paths()[0].vertices[:, 1]))
-    assert bands[1] == pytest.approx(2 * bands[0], rel=1e-2)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial.legendre import leggauss
-from stack_strategies import HALF_SPACES, stacks
+from stack_strategies import HALF_SPACES
 
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
@@ -150,24 +150,6 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
     error = np.abs(all_components(layered) - all_components(expected)).max()
     # What the corner differences of the closed form lose at this distance.
     assert error < 2e-13 * own_cell(layered)
-
-
-@given(stacks(max_layers=3).filter(lambda body: body.layers), st.floats(0.1, 10), st.floats(0.3, 3))
-def test_cells_add_up(stack, size, aspect):
-    """A cell of 3 x 3 cells is displaced at its centre by the sum of the nine."""
-    dx, dy = size, size * aspect
-    fine = all_components(LayeredCoefficients(stack, (dx, dy), (27, 24)))
-    coarse = all_components(LayeredCoefficients(stack, (3 * dx, 3 * dy), (8, 7)))
-    odd_x, odd_y = np.array([1, 1, 1, -1, -1, 1]), np.array([1, 1, 1, -1, 1, -1])
-    total = np.zeros_like(coarse)
-    for i in range(-1, 2):
-        for j in range(-1, 2):
-            a, b = 3 * np.arange(8) + i, 3 * np.arange(7) + j
-            part = fine[:, abs(a)[:, None], abs(b)]
-            part *= np.where(a < 0, odd_x[:, None], 1)[:, :, None]
-            part *= np.where(b < 0, odd_y[:, None], 1)[:, None, :]
-            total += part
-    assert np.abs(total - coarse).max() < 1e-11 * np.abs(coarse).max()
 
 
 HARD = {

@@ -12,10 +12,8 @@ from stored_mesh import read_mesh
 
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.invariants import principal_stresses, von_mises
-from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressPoints
 from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
-from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial, Layer
 from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
@@ -111,12 +109,6 @@ def test_weights_integrate_over_the_surface() -> None:
         assert np.max(np.abs(np.array(both) - exact) / allowed) <= 1
 
 
-def test_rings_stand_for_the_disc_they_reach() -> None:
-    for radii in (np.array([0.0, 0.1, 0.4, 1.0]), np.array([0.2, 0.3, 1.0])):
-        for points in (None, 6):
-            assert np.sum(rings(radii, points).weights) == pytest.approx(np.pi, rel=1e-14)
-
-
 def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None:
     """A vector along the load, of components outward and around the axis."""
     half = rings(np.linspace(0.0, REACH, 16), 9, OBLIQUE)
@@ -133,23 +125,6 @@ def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None
     expected = hump(np.hypot(*mesh.points[:, :2].T))[:, None] * [*OBLIQUE, 0.0]
     assert len(mesh.points) == 16 * len(half.radii)
     np.testing.assert_allclose(mesh.at_points["shear [Pa]"], expected, atol=ROUND_OFF)
-
-
-SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
-FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
-COATED = Body(material=SOFT, layers=(FILM,))
-FRICTION = 0.5
-
-
-def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> LoadedBodies:
-    """Gross sliding along x under a Hertz pressure."""
-    tractions = {"pressure": pressure}
-    if "x" in axes:
-        tractions["shear"] = np.stack([FRICTION * pressure, 0 * pressure])
-    else:
-        tractions["shear_along_load"] = FRICTION * pressure
-    asked = FiniteElementDiscretisation(elements_per_radius=8)
-    return LoadedBodies("", COATED, COATED, 1, axes, tractions, asked)
 
 
 def test_measures_of_a_pure_shear() -> None:

@@ -74,15 +74,6 @@ def test_springs_of_a_rig_act_along_and_across_the_load():
     assert one.elastic_energy == pytest.approx(other.elastic_energy, rel=2e-3)
 
 
-def test_a_scene_that_needs_no_whole_circle_computes_no_more():
-    """One compliance of each harmonic and no torsion, on the points of the half circle."""
-    of = scene(PRESSED, push(0.5, increments=2), push(-0.5, increments=2), indenter=RIGID_BALL)
-    result = solved(of, 8, harmonics=3)
-    assert result.plan.path is Path.HARMONICS
-    assert sum(increment.factorizations for increment in result.increments) == 4
-    assert result.steps[-1].pressure.shape[1] == 4
-
-
 def test_stress_below_turned_tractions_is_the_turned_stress():
     """Tractions turned by two points of a ring, and a uniform torsion."""
     end = example().steps[-1]
