@@ -125,6 +125,26 @@ HISTORIES = {
 }
 
 
+EVERYWHERE: dict[str, Callable[[Scene], Any]] = {"cells": on_cells, "rings": on_rings, **ELEMENTS}
+
+
+def number(value: Any) -> float:
+    """A number, or the first component of a vector; zero if it is absent."""
+    return 0.0 if value is None else float(np.ravel(value)[0])
+
+
+def lawful_and_equal(asked: Scene, on_rings: float) -> dict[str, Any]:
+    """Results of all solvers, which obey the laws, on rings within a bound, and agree."""
+    results = {name: solve(asked) for name, solve in EVERYWHERE.items()}
+    known = results["rings"].steps[-1]
+    for name, result in results.items():
+        assert observed(result).violation < (on_rings if name == "rings" else TOLERANCE), name
+        for quantity, most in AGREE.items():
+            found, expected = (number(getattr(end, quantity)) for end in (result.steps[-1], known))
+            assert found == pytest.approx(expected, rel=most, abs=1e-12), (name, quantity)
+    return results
+
+
 @pytest.mark.parametrize("history", HISTORIES)
 def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> None:
     loading, coupled, bound = HISTORIES[history]
@@ -132,24 +152,9 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     assert asked.friction is not None
     assert asked.friction.uniform is None
     assert asked.friction.largest_tangential_force(LOAD) is None
-    cells, rings = on_cells(asked), on_rings(asked)
-    elements = {name: solve(asked) for name, solve in ELEMENTS.items()}
-    assert observed(cells).violation < TOLERANCE
+    results = lawful_and_equal(asked, bound)
     if coupled:
-        assert max(one.convolutions for one in cells.increments) < MAX_CONVOLUTIONS
-    assert observed(rings).violation < bound
-    for name, result in elements.items():
-        assert observed(result).violation < TOLERANCE, name
-    for name, most in AGREE.items():
-        expected = number(getattr(rings.steps[-1], name))
-        for result in (cells, *elements.values()):
-            found = number(getattr(result.steps[-1], name))
-            assert found == pytest.approx(expected, rel=most, abs=1e-12), (name, result.solver)
-
-
-def number(value: Any) -> float:
-    """A number, or the first component of a vector; zero if it is absent."""
-    return 0.0 if value is None else float(np.ravel(value)[0])
+        assert max(one.convolutions for one in results["cells"].increments) < MAX_CONVOLUTIONS
 
 
 def radial_map(mu: Callable[[Any], Any], count: int = 201, **placed: Any) -> FrictionMap:
@@ -176,7 +181,6 @@ def waving(x: Any) -> Any:
     return 0.1 * (1 + 0.5 * np.cos(np.pi * x / 2))
 
 
-EVERYWHERE: dict[str, Callable[[Scene], Any]] = {"cells": on_cells, "rings": on_rings, **ELEMENTS}
 SLID = {"tangential_shift": (10 * hertz().approach, 0.0)}
 SPUN = {"twist": 0.1}
 TURN = LoadStep(tangential_force=(0.3 * LIMIT, 0.2 * LIMIT), torque=TWIST.torque, increments=2)
@@ -188,17 +192,9 @@ ABOUT_THE_AXIS["turned and twisted"] = ((PRESS, PUSH, TURN), False)
 def test_a_map_about_the_axis_gives_the_same_in_every_solver(history: str) -> None:
     loading, coupled = ABOUT_THE_AXIS[history]
     asked = with_friction(scene(*loading, coupled=coupled), radial_map(steep))
-    results = {name: solve(asked) for name, solve in EVERYWHERE.items()}
-    expected = results["rings"].steps[-1]
-    for name, result in results.items():
-        allowed = OVER_ANGLES if name == "rings" else TOLERANCE
-        assert observed(result).violation < allowed, name
-        for quantity, most in AGREE.items():
-            found = number(getattr(result.steps[-1], quantity))
-            known = number(getattr(expected, quantity))
-            assert found == pytest.approx(known, rel=most, abs=1e-12), (name, quantity)
+    mapped = lawful_and_equal(asked, OVER_ANGLES)["rings"].steps[-1]
     uniform = on_rings(scene(*loading, coupled=coupled)).steps[-1]
-    pairs = {q: [number(getattr(end, q)) for end in (uniform, expected)] for q in AGREE}
+    pairs = {q: [number(getattr(end, q)) for end in (uniform, mapped)] for q in AGREE}
     assert any(abs(a - b) > 2 * AGREE[q] * abs(b) for q, (a, b) in pairs.items())  # the map matters
 
 

@@ -207,18 +207,18 @@ def test_tip_or_rim_yields_at_any_load() -> None:
         assert "infinite" in one.reason
 
 
-def test_load_factor_multiplies_every_control() -> None:
-    for number in (0, 1):
-        values = {pair[number]: 0.01 for pair in CONTROLS}
-        for name in values.keys() & {"tangential_force", "tangential_shift", "moment", "tilt"}:
-            values[name] = (0.01, -0.02)
-        for name in values.keys() & {"bulk_stress", "bulk_strain"}:
-            values[name] = (0.01, 0.0, -0.02)
-        step = LoadStep(**values, increments=3)
-        doubled = {
-            name: tuple(np.multiply(2, v)) if np.ndim(v) else 2 * v for name, v in values.items()
-        }
-        assert step.multiplied(2.0) == LoadStep(**doubled, increments=3)
+COMPONENTS = {
+    **dict.fromkeys(("tangential_force", "tangential_shift", "moment", "tilt"), (0.01, -0.02)),
+    **dict.fromkeys(("bulk_stress", "bulk_strain"), (0.01, 0.0, -0.02)),
+}
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_load_factor_multiplies_every_control(number: int) -> None:
+    values = {pair[number]: COMPONENTS.get(pair[number], 0.01) for pair in CONTROLS}
+    doubled = {name: np.multiply(2, value).tolist() for name, value in values.items()}
+    step = LoadStep(**values, increments=3)
+    assert step.multiplied(2.0) == LoadStep(**doubled, increments=3)
 
 
 # ---- search of the root
