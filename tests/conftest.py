@@ -78,7 +78,7 @@ LONGEST = (
     "test_error_coverage_truths",
     "test_operator",
     "test_tables",
-    "test_stick_slip",
+    "test_histories_on_cells",
     "test_radial_harmonics",
     "test_scene_errors",
 )
