@@ -39,6 +39,7 @@ LONGEST = (
     "test_seeded_defects",
     "test_stated_errors",
     "test_accuracy",
+    "test_stress_errors",
     "test_convergence_studies",
     "test_influence_layered",
     "test_study_stability",

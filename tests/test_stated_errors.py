@@ -1,11 +1,9 @@
 """Tests of stated errors: they cover the true errors, or the number is marked as not converged."""
 
-import ast
 import json
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
@@ -26,9 +24,9 @@ from contact_scenes import (
     scene,
     steel,
 )
+from error_scenes import cells, indented, size
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
-import contact_errors
 import slipstick as package
 from contact_errors.coarse_solves import (
     add_effects,
@@ -37,19 +35,10 @@ from contact_errors.coarse_solves import (
     ratios,
 )
 from contact_errors.error_formula import (
-    Comparison,
-    SolvedRun,
-    build_stated_error,
-    characteristic_size,
-    largest_so_far,
     prescribed_scalars,
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
-from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
-from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import OnCells
-from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
     Body,
@@ -66,12 +55,11 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.contact_features import PEAK, Features
+from contact_scene.contact_features import PEAK
 from contact_scene.discretised import Fineness
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
-    StatedError,
 )
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.rig import Rig
@@ -80,10 +68,6 @@ from contact_scene.stepping.increment_error import (
     has_increment_error,
     near_gross_slip,
 )
-from fem_reference import Method
-from fem_reference import Path as ElementPath
-from fem_reference.discretised import ElementSolver
-from radial.discretised import RingSolver
 from semi_analytical import solve
 from semi_analytical.discretised import CellSolver
 from semi_analytical.edge_correction import pressure as pressure_correction
@@ -91,169 +75,11 @@ from slipstick import stated_errors
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
-from verification.closed_forms.huber_stress import axis_stress, trailing_edge_tension
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.families import Similar
 from verification.problems.problem import surface_of
 
 SLOW = pytest.mark.slow
-
-
-def size(error: StatedError) -> float:
-    assert error.error is not None
-    return float(np.max(error.error))
-
-
-def largest_tension(result: Any) -> tuple[float, StatedError]:
-    """Of the body, at the end."""
-    of_body = largest_stresses(result, stated_errors(result), ["max_principal@body"])
-    ((value, error),) = of_body.values()
-    assert error is not None
-    return value, error
-
-
-# ---- the formula ------------------------------------------------------------------------------
-
-
-def errors_of_one(order: float, comparisons: list[Comparison], features: Features) -> StatedError:
-    """Error of an approach of 2 with the natural sizes of a contact."""
-    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
-    values = {name: np.ones(1) for name in names} | {"approach": np.array([2.0])}
-    needed = {comparison.part: [True] for comparison in comparisons} or {"cells": [True]}
-    run = SolvedRun(scene(PRESS), [values], [1e-8], [features], comparisons, needed, {})
-    return next(run.errors())["approach"]
-
-
-def test_a_worked_example() -> None:
-    """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 3 times the root mean square of
-    0.06/(2^4 + 1)^½ = 0.01455 and 0.02/(1.875^4 + 1)^½ = 0.00547; increments 0.01/(2^0.6 - 1) =
-    0.01939; tolerance 10·2e-8."""
-    two, coarse, other, recut = ([{"approach": np.array([x])}] for x in (2.0, 2.06, 1.98, 2.01))
-    comparisons = [
-        Comparison("cells", two, coarse, [2.0]),
-        Comparison("cells", two, other, [1.875]),
-        Comparison("increments", two, recut, [2.0]),
-    ]
-    found = errors_of_one(2.0, comparisons, Features(contact=10))
-    assert found.status is ErrorStatus.ESTIMATED
-    assert found.parts == pytest.approx(
-        {"cells": 0.03298, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
-    )
-    few = errors_of_one(2.0, comparisons, Features(contact=3.9))
-    far = [Comparison("cells", two, [{"approach": np.array([5.0])}], [2.0])]
-    assert few.status is ErrorStatus.NOT_CONVERGED
-    assert "contact is 3.9 cells, below the limit 4" in (few.reason or "")
-    large = errors_of_one(2.0, far, Features(10))
-    assert large.status is ErrorStatus.NOT_CONVERGED
-    assert "exceeds the number" in (large.reason or "")
-    unknown = errors_of_one(2.0, [], Features(10))
-    assert unknown.error is None
-    assert "coarse solve" in (unknown.reason or "")
-    assert found.reason is None
-
-
-@pytest.mark.parametrize(
-    ("size", "status"),
-    [(1e-20, ErrorStatus.ESTIMATED), (1e-6, ErrorStatus.NOT_CONVERGED)],
-    ids=["round-off", "slip"],
-)
-def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStatus) -> None:
-    """A slip annulus narrower than half a cell leaves the shift open only where something slips."""
-    names = ("approach", "normal_force", "contact_radius", "contact_area", "peak_pressure")
-    sizes = {name: np.ones(1) for name in names}
-    fine, coarse = ([{**sizes, "tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
-    cells = Comparison("cells", fine, coarse, [2.0])
-    posed, features = scene({**PRESS, **push(0.1)}), Features(10, annulus=0.0)
-    run = SolvedRun(posed, fine, [1e-8], [features], [cells], {"cells": [True]}, {})
-    assert next(run.errors())["tangential_shift"].status is status
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    {"torque": 15.0, "approach": 2.0, "twist": 0.4, "elastic_energy": 6.0}.items(),
-)
-def test_a_size_is_made_of_those_with_its_unit(name, expected) -> None:
-    sizes = {"approach": 2.0, "normal_force": 3.0, "contact_radius": 5.0}
-    values = {key: np.array([size]) for key, size in sizes.items()}
-    others = {"contact_area": np.zeros(1), "peak_pressure": np.zeros(1)}
-    assert characteristic_size(name, values | others) == pytest.approx(expected)
-
-
-def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None:
-    steps = [SimpleNamespace(worst_residual=size) for size in (1e-9, 1e-5)]
-    rings = RingSolver(scene({"approach": 1e-6}), RadialDiscretisation())
-    assert rings.residuals(cast("Any", SimpleNamespace(steps=steps))) == [1e-9, 1e-5]
-    inclined = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.SHEARING))
-    elements = ElementSolver(rings.scene, FiniteElementDiscretisation())
-    ratio = rings.scene.body.elastic_materials[0].poisson_ratio
-    left = 1 - np.cos(ratio / (4 - 2 * ratio))  # of Mindlin's slip across the load
-    assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
-        left, rel=0.01
-    )
-    pushed = SimpleNamespace(
-        plan=SimpleNamespace(path=ElementPath.HARMONICS),
-        sections=[SimpleNamespace(outline=SimpleNamespace(box=40.0))],
-    )
-    mesh = FiniteElementDiscretisation(overlap=1e-3, harmonics=12)
-    solver = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
-    solves = solver.mesh_coarse_solves(mesh, cast("Any", pushed))
-    found = {coarse.key: (coarse.value, coarse.ratio) for coarse in solves}
-    assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
-
-
-@pytest.mark.parametrize("order", [1.0, 2.0])
-@pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
-@pytest.mark.parametrize("part", ["cells", "section"])
-def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios, part) -> None:
-    """Three spreads cover a systematic error as well; the order of other parts is 2."""
-    order = order if part == "cells" else 2.0
-    exact, fine = 2.0, 2.0 + 0.1**order
-    coarse = [2.0 + (0.1 * ratio) ** order for ratio in ratios]
-    of_fine, *others = ([{"approach": np.array([x])}] for x in (fine, *coarse))
-    comparisons = [
-        Comparison(part, of_fine, other, [ratio])
-        for other, ratio in zip(others, ratios, strict=True)
-    ]
-    found = errors_of_one(order, comparisons, Features(10, largest_order=order))
-    assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
-
-
-def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
-    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure", "approach")
-    at_2, at_3 = ({name: np.full(1, size) for name in names} for size in (2.0, 3.0))
-    part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
-    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), [Features(contact=10)] * 2
-    run = SolvedRun(posed, [at_2] * 2, [1e-8] * 2, features, [part], {"cells": [True] * 2}, {})
-    first, second = (step["peak_pressure"].error for step in run.errors())
-    assert second == first > 0.1
-
-
-def test_components_of_a_vector_share_one_size() -> None:
-    steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
-    sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
-    np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
-    assert build_stated_error({"cells": np.array([1.0, 2.0])}, None).error == (1.0, 2.0)
-
-
-@pytest.mark.parametrize(
-    ("name", "features", "resolved"),
-    [
-        ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
-        ("approach", {"layer": 0.9}, False),
-        ("approach", {"wave": 3.9}, False),
-        ("stick_radius", {"stick": 0.9}, False),
-        ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
-        ("tangential_shift", {"stick": 0.0, "annulus": 9.0}, False),
-        ("tangential_shift", {"stick": 0.0, "annulus": 9.0, "slides": True}, True),
-        ("tangential_shift", {"stick": 0.0, "annulus": 0.0}, False),
-        ("dissipated_energy", {"stick": 9.0, "annulus": 0.0}, False),
-        ("peak_pressure", {"stick": 0.0}, True),
-        ("peak_pressure", {"stick": 0.0, "cusp": True}, False),
-        ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
-    ],
-)
-def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
-    assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
 
 
 def test_a_slip_zone_smaller_than_a_cell_leaves_a_cell_open() -> None:
@@ -293,47 +119,6 @@ def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
     posed = rubbed(push(0.6), push(-0.6), push(0.6), body=Body(material=LOOSE))
     result = package.solve(posed, "semi-analytical", cells(24))
     assert stated_errors(result).steps[-1]["stick_centre"].status is ErrorStatus.EXACT
-
-
-def test_constants_are_those_that_are_explained() -> None:
-    """A new constant in the package, or where a solver describes its discretisation, needs a
-    derivation, and an entry here: no quantity and no kind of scene has a constant of its own.
-    Functions have units and round-off alone."""
-    found, within = set(), set()
-    root = Path(contact_errors.__file__).parents[1]
-    features = root / "contact_scene" / "contact_features.py"
-    for path in (*root.glob("contact_errors/*.py"), *root.glob("*/discretised.py"), features):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in tree.body:
-            if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
-                target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-                found |= {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
-            else:
-                within |= numbers_in(node)
-    assert found == set(CONSTANTS.split())
-    assert within <= {0, 0.5, 1, 2, 3, 4, 6, 10, 30, 1e-9, 1e-3}
-
-
-def numbers_in(node: ast.AST) -> set[float]:
-    parts = (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
-    return {value for value in parts if type(value) in (int, float)}
-
-
-# Of the formula, the coarse solves, the refinement and the cost estimate.
-CONSTANTS = """
-SPREADS BELIEVED SMOOTH EDGE ROOT PER_TOLERANCE LARGEST_SHARE REFERENCE_PRECISION ORDERS LIMITS
-FITTED_STICK FITTED_SLIP NARROWEST STICK_SIZES ROUND_OFF PRECISION HIGHEST
-
-SHARES SHARES_OF_SMALL SMALL FEW MANY PER_RADIUS NEGLIGIBLE ROOM MAX_ENLARGEMENTS FEWEST_ELEMENTS
-SMALLEST_BOX FEWEST_HARMONICS LARGEST_OVERLAP LINEAR NEAR COARSE OF_FINER OF_ANOTHER_FIT
-EDGE_PRECISION FINENESS
-
-SPARE DOUBT FURTHEST MAX_AT_ONCE LEAST_AT_ONCE UNCONVERGED MAX_ROUNDS MAX_WORSE FIRST_CELLS
-FIRST_PATH_ACCURACY MAX_CELLS LEAST_TOLERANCE MAX_DOUBLINGS DOUBLING FIRST_ELEMENTS MAX_ELEMENTS
-MAX_HARMONICS LEAST_OVERLAP LARGEST_BOX FIRST_FINENESS MAX_FINENESS
-
-EXPONENT CELL_OVERHEAD ELEMENT_OVERHEAD RING_OVERHEAD SET_UP_INCREMENTS INCREMENTS STEPS MAX_STEPS
-"""
 
 
 # ---- increments -------------------------------------------------------------------------------
@@ -460,26 +245,6 @@ def alike(young: float, nu: float, radius: float, mu: float, *steps: LoadStep) -
         friction=CoulombFriction(coefficient=mu),
         loading=steps,
     )
-
-
-def indented(
-    radius: float,
-    load: float,
-    film: Layer | None,
-    base: Any,
-    mu: float | None = None,
-    *more: LoadStep,
-) -> Scene:
-    return Scene(
-        indenter=Paraboloid(radius=radius, material=RIGID),
-        body=Body(material=base, layers=() if film is None else (film,)),
-        friction=None if mu is None else CoulombFriction(coefficient=mu),
-        loading=(LoadStep(normal_force=load), *more),
-    )
-
-
-def cells(count: int, **more: Any) -> SurfaceDiscretisation:
-    return SurfaceDiscretisation(cells=(count, count), **more)
 
 
 def hertzian(count: int) -> Known:
@@ -757,132 +522,6 @@ def test_errors_cover_what_is_wrong(
         key = request.node.callspec.id, name
         assert wrong <= MISSED.get(key, 1.0) * size(error) + uncertain * abs(value), name
         assert size(error) <= WIDE.get(key, 1.0) * (100 * wrong + 0.02 * abs(value)), name
-
-
-@SLOW
-@pytest.mark.parametrize("count", [24, 48])
-def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> None:
-    """A stiff film pushed along: 2.0 GPa behind the contact, 1.6 GPa inside."""
-    radius = (3 * 150 * 0.011 * (1 - 0.3**2) / 4 / 210e9) ** (1 / 3)
-    film = Layer(thickness=0.4 * radius, material=steel(0.2, 840e9))
-    push_ = LoadStep(tangential_force=(0.6 * 0.3 * 150, 0.0))
-    posed = indented(0.011, 150.0, film, steel(0.3, 210e9), 0.3, push_)
-    result = package.solve(posed, "semi-analytical", cells(count))
-    value, error = largest_tension(result)
-    assert error.status is ErrorStatus.NOT_CONVERGED or abs(value - 2.0e9) <= size(error)
-
-
-@pytest.mark.parametrize(
-    ("thickness", "modulus", "count", "widest"),
-    [
-        (0.04, 600e9, 24, 0.1),
-        (0.04, 600e9, 64, 0.05),
-        (0.4, 420e9, 48, 0.05),
-        (0.4, 420e9, 64, 0.05),
-    ],
-)
-def test_the_tension_at_a_coating_pressed_without_friction_is_known(
-    thickness: float, modulus: float, count: int, widest: float
-) -> None:
-    """A film thinner than a cell, whose pressure the cells do not resolve, and a thicker one."""
-    film = Layer(thickness=thickness * A, material=steel(0.25, modulus))
-    posed = indented(0.018, 1e3, film, steel(0.3, 210e9), None)
-    result = package.solve(posed, "semi-analytical", cells(count))
-    value, error = largest_tension(result)
-    exact, _ = largest_tension(package.solve(posed, "radial"))
-    assert error.status is ErrorStatus.ESTIMATED
-    assert abs(value - exact) <= size(error) <= widest * exact
-
-
-def test_a_stress_below_a_tip_is_not_converged_near_the_surface() -> None:
-    posed = scene(PRESS, indenter=Cone(slope_angle=0.02, material=RIGID), friction=None)
-    result = package.solve(posed, "semi-analytical", cells(24))
-    names = ["von_mises@body", "max_shear@body"]
-    found = [e for _, e in largest_stresses(result, stated_errors(result), names).values()]
-    assert [error.status for error in found] == [ErrorStatus.NOT_CONVERGED] * len(names)
-    assert all("infinite" in error.reason for error in found)
-
-
-def largest_on_axis(nu: float) -> float:
-    """Largest von Mises stress below Hertz's contact over its peak pressure (Huber 1904)."""
-    stress = axis_stress(np.linspace(0.3, 0.7, 40001), 1.0, 1.0, nu)
-    return float(np.max(np.abs(stress.axial - stress.radial)))
-
-
-@pytest.mark.parametrize("deeper", [0.0, 0.03, 0.06, 0.09, 0.13])
-def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
-    """Below Hertz's contact the stress on the axis is known (Johnson 1985, eq. 3.45)."""
-    posed = scene(PRESS, indenter=paraboloid(steel(0.3)), body=steel(0.3))
-    result = package.solve(posed, "semi-analytical", cells(64))
-    state = state_of_result(result, 1, stated_errors(result))
-    radius = result.steps[0].contact_radius
-    depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
-    field = OnCells(state).stress(depths)
-    found = [e for e in extremes(field) if e.measure != "max_principal"]
-    assert found
-    exact = hertz().peak_pressure * largest_on_axis(0.3)
-    for extreme, error in zip(
-        found, stress_errors(state, field, found, at_depths=True), strict=True
-    ):
-        largest = exact if extreme.measure == "von_mises" else exact / 2
-        assert abs(extreme.value - largest) <= size(error) <= 0.05 * largest
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.3])
-def test_a_largest_stress_between_the_depths_of_the_radial_solver_is_covered(nu: float) -> None:
-    posed = scene(PRESS, friction=None, indenter=paraboloid(RIGID), body=steel(nu))
-    result = package.solve(posed, "radial", RadialDiscretisation())
-    ((found, error),) = largest_stresses(result, stated_errors(result), ["von_mises@body"]).values()
-    exact = result.steps[-1].peak_pressure * largest_on_axis(nu)
-    assert error is not None
-    assert abs(found - exact) <= size(error) < 1e-8 * exact
-
-
-def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monkeypatch) -> None:
-    """The same change between cells leaves the larger error where the order is lower."""
-    state = state_of_result(solve(scene(PRESS), grid(24), 1e-8), 1)
-    depth = np.array([0.01 * A, A])
-    monkeypatch.setattr(
-        OnCells,
-        "stress_at",
-        lambda one, *_: SimpleNamespace(
-            depth=depth, stress=np.full((6, 2), float(one.state is not state))
-        ),
-    )
-    _, (near, below) = stress_at(state, depth, depth, [])
-    assert near > 1.2 * below > 0
-
-
-def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
-    """As in a run without errors; a contact that is pressed alone has no increment error."""
-    result = solve(scene(PRESS, push(0.5)), grid(16), 1e-8)
-    for step, expected in ((1, ErrorStatus.ESTIMATED), (2, ErrorStatus.NOT_CONVERGED)):
-        state = state_of_result(result, step)
-        field = OnCells(state).stress([0.0, 0.5 * A])
-        (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
-        (error,) = stress_errors(state, field, [deepest], at_depths=True)
-        assert error.status is expected, error.reason
-
-
-@pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
-def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
-    """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
-    slid = {"tangential_shift": (1e-4, 0.0)}
-    posed = scene(PRESS, slid, indenter=paraboloid(steel()), friction=friction)
-    value, error = largest_tension(package.solve(posed, "semi-analytical", cells(count)))
-    exact = trailing_edge_tension(hertz().peak_pressure, friction, 0.3)
-    assert error.status is ErrorStatus.ESTIMATED
-    assert abs(value - exact) <= size(error) <= 0.01 * exact
-
-
-@pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
-def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: int) -> None:
-    """At the edge of Hertz's contact it is (1 - 2ν)/3 of the peak, however close ν is to ½."""
-    posed = scene(PRESS, indenter=paraboloid(steel(nu)), body=steel(nu))
-    result = package.solve(posed, "semi-analytical", cells(count))
-    value, error = largest_tension(result)
-    exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
-    assert abs(value - exact) <= size(error) <= 0.01 * hertz().peak_pressure
 
 
 def test_what_the_load_prescribes_is_exact() -> None:
