@@ -117,24 +117,6 @@ def test_a_kept_load_has_the_stiffness_of_full_stick(solver, body) -> None:
     assert slipped.tangential_stiffness < 0.9 * held.tangential_stiffness
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_a_contact_after_separation_has_the_stiffness_of_the_first(solver) -> None:
-    loop = [PRESS, SHIFT, {"normal_force": 0.0}, PRESS]
-    twice = {"tangential_shift": (2 * SHIFT["tangential_shift"][0], 0.0)}
-    _, once, apart, _, again = ends(solver, *loop, twice)
-    assert apart.normal_stiffness is apart.tangential_stiffness is None
-    for name in NAMES[:2]:
-        assert getattr(again, name) == pytest.approx(getattr(once, name), rel=1e-6)
-
-
-def test_turned_loads_have_the_stiffness_along_their_change() -> None:
-    along_x, turned = ends("semi-analytical", PRESS, push(0.5), push(0.5, 0.3))[1:]
-    along_y = ends("semi-analytical", PRESS, push(0.0, 0.5))[-1]
-    x, y, both = (first(end.tangential_stiffness) for end in (along_x, along_y, turned))
-    assert y == pytest.approx(x, rel=1e-9)
-    assert both > x
-
-
 def test_a_stalled_linear_solve_leaves_the_result(monkeypatch) -> None:
     monkeypatch.setattr(tangent, "MAX_ITERATIONS", 1)
     for body in BODIES:
