@@ -72,6 +72,13 @@ def test_a_height_map_gives_its_own_values_to_round_off(spacing: float, nx: int,
     np.testing.assert_allclose(gap - gap.min(), values - values.min(), rtol=0, atol=4e-15)
 
 
+def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None:
+    for seed in range(5):
+        shape = HeightMap(material=RIGID, file=heights(seed=seed), spacing=1.0)
+        x, y = np.linspace(-5.5, 5.5, 441), np.linspace(-4.0, 4.0, 321)  # 40 per spacing
+        assert 0.0 <= shape.initial_gap(x[:, None], y).min() < 4e-3
+
+
 @pytest.mark.parametrize("count", [12, 13])
 def test_a_map_touches_first_on_its_flat_and_not_beside_it(count: int) -> None:
     """Cubic convolution dips below a flat by 2/27 of the adjacent height."""
