@@ -9,17 +9,14 @@ import argparse
 from typing import Any
 
 import numpy as np
+from contact_scenes import LOAD, PRESS, A, paraboloid, scene, steel
 
 import slipstick
 from contact_scene import (
     RIGID,
     Body,
-    CoulombFriction,
     FiniteElementDiscretisation,
-    IsotropicMaterial,
     Layer,
-    LoadStep,
-    Paraboloid,
     RadialDiscretisation,
     Scene,
     SurfaceDiscretisation,
@@ -33,40 +30,26 @@ COARSE: dict[str, Any] = {
     "fem": ELEMENTS,
     "fem-complementarity": ELEMENTS,
 }
-# N, and m to an order of magnitude
-LOAD = 20.0
-CONTACT_RADIUS = 1e-4
 
 
 def draw_scene(rng: np.random.Generator) -> Scene:
     """Draw a scene of one to four pushes of alternating sign, some with a growing normal force."""
     ratio, thickness = 10 ** rng.uniform(-1.5, 1.5), 10 ** rng.uniform(-1.3, 0.5)
-    base = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-    other = IsotropicMaterial(
-        young_modulus=210e9 * ratio, poisson_ratio=float(rng.choice([0.0, 0.3, 0.49]))
-    )
-    film = Layer(thickness=thickness * CONTACT_RADIUS, material=other)
-    body, indenter = (
-        (Body(material=base), base),
-        (Body(material=base), other),
-        (Body(material=base, layers=(film,)), RIGID),
-        (Body(material=base, layers=(film,)), base),
-    )[rng.integers(4)]
+    base = steel(young_modulus=210e9)
+    other = steel(float(rng.choice([0.0, 0.3, 0.49])), 210e9 * ratio)
+    bare = Body(material=base)
+    coated = Body(material=base, layers=(Layer(thickness=thickness * A, material=other),))
+    body, indenter = ((bare, base), (bare, other), (coated, RIGID), (coated, base))[rng.integers(4)]
     friction = float(10 ** rng.uniform(-3, 0.5))
-    steps = [LoadStep(normal_force=LOAD, increments=1)]
+    steps: list[dict] = [{**PRESS, "increments": 1}]
     for number in range(rng.integers(1, 5)):
         part = (1 - 10 ** rng.uniform(-4, -2)) * (-1) ** number
-        push = (part * friction * LOAD, 0.0)
-        steps.append(LoadStep(tangential_force=push, increments=int(rng.integers(1, 4))))
+        force = (part * friction * LOAD, 0.0)
+        steps.append({"tangential_force": force, "increments": int(rng.integers(1, 4))})
         if rng.random() < 0.3:
-            more = LOAD * float(rng.uniform(1, 1.01))
-            steps.append(LoadStep(normal_force=more, increments=1))
-    return Scene(
-        indenter=Paraboloid(radius=0.01, material=indenter),
-        body=body,
-        friction=CoulombFriction(coefficient=friction),
-        loading=tuple(steps),
-    )
+            steps.append({"normal_force": LOAD * float(rng.uniform(1, 1.01)), "increments": 1})
+    drawn = scene(*steps, friction=friction, indenter=paraboloid(indenter))
+    return drawn.model_copy(update={"body": body})
 
 
 def failures(count: int, seed: int, solver: str) -> tuple[list[str], int]:
@@ -78,12 +61,12 @@ def failures(count: int, seed: int, solver: str) -> tuple[list[str], int]:
     """
     rng, found, solved = np.random.default_rng(seed), list[str](), 0
     while solved < count:
-        scene = draw_scene(rng)
-        solved += sum(step.increments or 1 for step in scene.loading)
+        drawn = draw_scene(rng)
+        solved += sum(step.increments or 1 for step in drawn.loading)
         try:
-            slipstick.solve(scene, solver, COARSE[solver])
+            slipstick.solve(drawn, solver, COARSE[solver])
         except SolverError as error:
-            found.append(f"{solver}: {type(error).__name__}: {error}\n{scene!r}")
+            found.append(f"{solver}: {type(error).__name__}: {error}\n{drawn!r}")
     return found, solved
 
 

@@ -5,7 +5,6 @@ import signal
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import pairwise
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -35,7 +34,6 @@ import radial
 import semi_analytical
 from contact_errors import adaptive_refinement
 from contact_errors.adaptive_refinement import (
-    SPARE,
     Levels,
     Refined,
     RefinementLevel,
@@ -281,16 +279,6 @@ def test_rounds_that_do_not_reduce_the_error_end_the_refinement_at_the_best_leve
     assert "have not reduced the error" in made.accuracy.stopped
 
 
-def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch) -> None:
-    # Another program takes the memory after the first level, which is not accurate enough without
-    # edge correction.
-    available = iter([1 << 40])
-    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: next(available, 1 << 20))
-    made = refine(on_cells(scene(PRESS), edge="off"), request("approach 0.05%"))
-    assert "GiB" in made.accuracy.stopped
-    assert made.level.result.steps
-
-
 @pytest.mark.parametrize(
     "judge", [refine, lambda levels, asked: targets_of(asked, levels.solve_first_level(), levels)]
 )
@@ -319,14 +307,6 @@ def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> Refinemen
     run = SolvedRun(scene(PRESS), values, [1e-8], [Features(10)], [], {"cells": [True]}, {})
     stated = StatedErrors(({"approach": error},), ())
     return RefinementLevel(None, None, values, stated, run, 1.0, 0.5, 0.5)
-
-
-@given(st.floats(1e-6, 0.5), st.floats(1e-6, 1e-1))
-def test_cells_grow_until_a_power_law_meets_what_was_asked(error: float, share: float) -> None:
-    by = level_of({"cells": 2 * error}).needed_factors({"approach": share})
-    left = error / by.get("cells", 1.0) ** 2
-    assert left == pytest.approx(min(error, share / SPARE))
-    assert "increments" not in by
 
 
 def test_a_worked_example_of_refinement() -> None:
@@ -428,31 +408,6 @@ def test_a_killed_run_resumes_the_solve_of_its_last_level(
     increments = len((out / "increments.csv").read_text(encoding="utf-8").splitlines()) - 1
     assert f"going on after increment {increments} " in " ".join(capfd.readouterr().err.split())
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml"]
-
-
-def test_a_run_without_accuracy_leaves_nothing_of_a_killed_one_with_it(tmp_path: Path) -> None:
-    of_level = tmp_path / ".out.checkpoint-2"
-    of_level.mkdir()
-    (of_level / "part-000000").write_bytes(b"of another scene")
-    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", "--figures", "none") == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
-
-
-def test_the_price_of_less_error_is_more_of_everything() -> None:
-    levels = on_cells(scene(PRESS, push(0.6)))
-    first = levels.solve_first_level()
-    last = [
-        targets_of(request(share), first, levels)[2] for share in ("0.2%", "0.03%", FINER, "50%")
-    ]
-    works = [levels.estimated_seconds(first, levels.solver.work(each)) for each in last]
-    for low, high in pairwise(range(3)):
-        assert last[low].space.cells < last[high].space.cells
-        assert works[low] < works[high]
-        assert levels.solver.memory(last[low]) < levels.solver.memory(last[high])
-    assert not any(levels.beyond_limit(each) for each in last)
-    assert last[3] == first.fineness
-    with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
-        targets_of(request("1e-12"), first, levels)
 
 
 def test_a_plan_prints_the_memory_of_the_libraries_at_least(

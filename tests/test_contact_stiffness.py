@@ -4,13 +4,12 @@ from itertools import product
 
 import numpy as np
 import pytest
+from contact_scenes import LIMIT, LOAD, MU, NU, YOUNG, A, push, scene, steel
 
 import slipstick
 from contact_scene import Body, Layer, Scene
 from contact_scene.rig import Rig
 from contact_solver import tangent
-from semi_analytical import stiffness as stiffness_on_cells
-from tests.contact_scenes import LIMIT, LOAD, MU, NU, YOUNG, A, push, scene, steel
 from verification.closed_forms.hertz import contact_modulus, tangential_modulus
 
 BODY = YOUNG, NU
@@ -116,43 +115,6 @@ def test_a_kept_load_has_the_stiffness_of_full_stick(solver, body) -> None:
     slipped, held, reversed_ = ends(solver, PRESS, push(0.6), PRESS, push(0.599), body=body)[1:]
     assert held.tangential_stiffness == pytest.approx(reversed_.tangential_stiffness, rel=1e-3)
     assert slipped.tangential_stiffness < 0.9 * held.tangential_stiffness
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_springs_of_a_rig_are_no_part_of_the_contact_stiffness(solver) -> None:
-    plain, sprung = (ends(solver, PRESS, push(0.6), rig=rig)[-1] for rig in (None, SPRINGS))
-    for name in ("normal_stiffness", "tangential_stiffness"):
-        assert getattr(sprung, name) == pytest.approx(getattr(plain, name), rel=1e-6)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_a_contact_after_separation_has_the_stiffness_of_the_first(solver) -> None:
-    loop = [PRESS, SHIFT, {"normal_force": 0.0}, PRESS]
-    twice = {"tangential_shift": (2 * SHIFT["tangential_shift"][0], 0.0)}
-    _, once, apart, _, again = ends(solver, *loop, twice)
-    assert apart.normal_stiffness is apart.tangential_stiffness is None
-    for name in NAMES[:2]:
-        assert getattr(again, name) == pytest.approx(getattr(once, name), rel=1e-6)
-
-
-def test_turned_loads_have_the_stiffness_along_their_change() -> None:
-    along_x, along_y = ends("semi-analytical", PRESS, push(0.5), push(0.5, 0.3))[1:]
-    (x,), (y,) = [
-        [first(end.tangential_stiffness)]
-        for end in (ends("semi-analytical", PRESS, push(0.0, 0.5))[1], along_y)
-    ]
-    assert x == pytest.approx(along_x.tangential_stiffness, rel=1e-9)
-    assert y > along_x.tangential_stiffness
-
-
-def test_without_request_there_is_no_stiffness_and_no_call(monkeypatch) -> None:
-    def refuse(*_: object, **__: object) -> None:
-        raise AssertionError
-
-    monkeypatch.setattr(stiffness_on_cells, "contact_stiffness", refuse)
-    asked = requested(PRESS, push(0.5)).replace({"contact_stiffness": None})
-    end = slipstick.solve(asked, "semi-analytical", settings("semi-analytical", A)).steps[-1]
-    assert [getattr(end, name) for name in NAMES] == [None] * 3
 
 
 def test_a_stalled_linear_solve_leaves_the_result(monkeypatch) -> None:

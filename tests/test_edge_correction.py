@@ -1,7 +1,5 @@
 """Tests of the edge correction, by which the contact edge lies inside the cells."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 from cell_means import ellipse_means
@@ -19,29 +17,19 @@ from contact_scenes import (
     steel,
 )
 
-import radial
 import slipstick
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
     Body,
     HeightMap,
     Layer,
-    LoadStep,
-    RadialDiscretisation,
     Scene,
     SurfaceDiscretisation,
 )
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
 from verification.problems.problem import (
-    FRICTION_LIMIT,
     ShiftedGrid,
-    coated,
-    film,
-    pressed,
-    pressing,
-    rigid_ball,
 )
 
 CELLS = 48
@@ -117,24 +105,16 @@ STEPS = (PRESS, {"normal_force": 0.5 * LOAD}, {"normal_force": 0.8 * LOAD})
 
 
 def test_no_later_state_knows_of_the_correction():
-    """What is not corrected is the same to the last bit."""
+    """What is not corrected is the same to the last bit, and so is each corrected state."""
     loading = tuple({**step, "increments": 2} for step in STEPS[:2])
-    plain, corrected = (solved(frictionless(*loading), edge) for edge in ("off", "last"))
-    for one, other in zip(plain.increments, corrected.increments, strict=True):
-        assert one.residuals == other.residuals
-        if one.index == 1:
-            assert other.edge_change is None
-            assert one.elastic_energy == other.elastic_energy
-            np.testing.assert_array_equal(one.pressure, other.pressure)
-
-
-def test_edges_are_put_inside_the_cells_when_that_is_asked_for():
-    loading = ({**PRESS, "increments": 2},)
-    by = {
-        edge: [i.edge_change is not None for i in solved(frictionless(*loading), edge).increments]
-        for edge in ("off", "last", "all")
-    }
-    assert by == {"off": [False, False], "last": [False, True], "all": [True, True]}
+    runs = (solved(frictionless(*loading), edge).increments for edge in ("off", "last", "all"))
+    for plain, last, every in zip(*runs, strict=True):
+        assert plain.residuals == last.residuals == every.residuals
+        assert plain.edge_change is None is not every.edge_change
+        assert (last.edge_change is None) == (last.index == 1)
+        same = plain if last.index == 1 else every
+        assert last.elastic_energy == same.elastic_energy
+        np.testing.assert_array_equal(last.pressure, same.pressure)
 
 
 ALIKE = steel(poisson_ratio=0.0)  # then all slip is along the force
@@ -245,13 +225,6 @@ def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so
     assert any(told in remark for remark in warnings_of(asked))
 
 
-def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
-    """But who takes the solver's plan as it comes: verification names what it judges."""
-    of = frictionless(PRESS)
-    assert slipstick.plan(of).edge == SurfaceDiscretisation().edge == "last"
-    assert plan(of).edge == "off"
-
-
 def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     """Heights at random from cell to cell leave no edge to fit."""
     grid = SurfaceGrid((CELLS, CELLS), (WINDOW, WINDOW))
@@ -262,58 +235,6 @@ def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     result = solved(frictionless(PRESS, indenter=rough), "last", grid)
     assert result.steps[-1].edge_change is None
     assert any("edge is rough" in told for told in warnings_of(result))
-
-
-@pytest.mark.parametrize("eigenvalue", [0.0, -0.5, -0.99, -1.5, -2.0])
-@pytest.mark.parametrize("factor", [0.5, 1.0])
-def test_a_relaxed_change_at_least_halves_the_error_of_a_linear_iteration(eigenvalue, factor, rng):
-    """And ends it, if the factor may be what its eigenvalue asks for."""
-    first = rng.standard_normal((4, 4))
-    error = (1 - (1 - eigenvalue) * factor) * first
-    change = [(eigenvalue - 1) * one for one in (first, error)]
-    next_factor = relaxation_factor(factor, *change)
-    left = 1 - (1 - eigenvalue) * next_factor
-    assert abs(left) <= 0.5 + 1e-12
-    if 1 / (1 - eigenvalue) >= LEAST_FACTOR and np.any(error):
-        assert left == pytest.approx(0.0, abs=1e-12)
-
-
-INCREMENTS = 6
-SIDE = 2.8 * A
-FILM = coated(film(0.5, 1.0))
-
-
-def ball(*loading: LoadStep) -> Scene:
-    return pressed("", rigid_ball(), FILM, *loading, friction=MU)
-
-
-def solved_beside(
-    of: Scene, edge: str, cells: int = CELLS, offset: tuple[float, float] = (0.0, 0.0)
-):
-    grid = ShiftedGrid((cells, cells), (SIDE, SIDE), offset)
-    return solve(of, grid, 1e-8, plan=plan(of, edge=edge))
-
-
-def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say():
-    """Where new cells stick what is missing from slip falls like s^(3/2); by a root all around the
-    radius is 2e-2 to 3e-2 too small."""
-    of = ball(pressing(16))
-    rings = radial.solve(of, RadialDiscretisation()).steps[-1]
-    end = solved_beside(of, "all", offset=(0.31, -0.17)).steps[-1]  # off the symmetry of the cells
-    assert end.stick_radius == pytest.approx(rings.stick_radius, rel=4e-3)
-
-
-@cache
-def pushed_film(edge: str):
-    push = LoadStep(tangential_force=(0.5 * FRICTION_LIMIT, 0.0), increments=3)
-    return solved_beside(ball(pressing(INCREMENTS), push), edge)
-
-
-def test_the_correction_of_a_state_does_not_depend_on_that_of_earlier_ones():
-    for every, last in zip(pushed_film("all").steps, pushed_film("last").steps, strict=True):
-        assert last.edge_change is not None
-        for name in ("pressure", "shear", "approach", "stick_area"):
-            np.testing.assert_array_equal(getattr(every, name), getattr(last, name))
 
 
 @pytest.mark.parametrize("far", [(9.0, 0.0), (6.0, -6.0)])

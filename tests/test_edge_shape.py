@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cell_means import ellipse_means, elliptic_radius
 from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.ndimage import binary_erosion
@@ -10,7 +11,6 @@ from semi_analytical.edge.clipped_power_means import mean_of_cut, mean_of_smooth
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
 from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
-from tests.cell_means import ellipse_means, elliptic_radius
 
 EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)
 # Value and slopes: a corner, an edge, along a side, almost along it, inside, flat, far inside, out.

@@ -11,14 +11,9 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_errors.error_formula import values_of
-from contact_scene.body_pair import contact_modulus
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.problems.drawn.drawing import CELLS, STRESSES, KnownScene
 from verification.problems.drawn.families import (
-    CHOOSING,
     FAMILIES,
-    JUDGING,
-    TRIED,
     Similar,
     drawn,
     refined,
@@ -74,13 +69,6 @@ def test_errors_fall_towards_the_answer(family: str) -> None:
     assert np.mean(np.log(fine + CHANCE)) <= np.mean(np.log(coarse + CHANCE)) - np.log(FALLS)
 
 
-def test_scenes_are_equal_at_every_call_and_differ_between_seeds() -> None:
-    for family in ("balls", "pushed", "tilted"):
-        assert drawn(family, SEED, 0) == drawn(family, SEED, 0)
-        scenes = [drawn(family, seed, 0).scene for seed in (*CHOOSING, *TRIED, JUDGING)]
-        assert len({scene.model_dump_json() for scene in scenes}) == len(scenes)
-
-
 def similar_balls() -> Similar:
     scene = drawn("pushed", SEED, 0).scene
     load, friction = scene.loading[0].normal_force, scene.friction
@@ -88,17 +76,6 @@ def similar_balls() -> Similar:
     assert friction is not None
     assert friction.uniform is not None
     return Similar(scene, load, friction.uniform)
-
-
-def test_a_push_of_balls_is_that_of_mindlin() -> None:
-    balls = similar_balls()
-    force, modulus = 0.7 * balls.mu * balls.load, contact_modulus(balls.scene)
-    shift, stick, lost, stored = balls.first(force)
-    exact = PartialSlip(balls.load, balls.full.radius, balls.mu, modulus, force)
-    assert shift == pytest.approx(exact.shift)
-    assert stick == pytest.approx(exact.stick_radius)
-    assert lost == pytest.approx(exact.dissipated_energy)
-    assert stored > 0
 
 
 def test_work_along_a_loop_is_stored_or_dissipated() -> None:

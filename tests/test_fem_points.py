@@ -67,12 +67,6 @@ def along(load: float | None = None, motion: float | None = None) -> TangentialT
     return TangentialTarget((load, None, None), (motion, 0.0, 0.0))
 
 
-def cartesian(grid, vector):
-    """x and y components of r and θ components (2, rings, angles)."""
-    cos, sin = np.cos(grid.angles), np.sin(grid.angles)
-    return vector[0] * cos - vector[1] * sin, vector[0] * sin + vector[1] * cos
-
-
 GRIDS = (end_grid(2), end_grid(7), mid_grid(2), mid_grid(7), whole_grid(2), whole_grid(7))
 
 
@@ -121,18 +115,6 @@ def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
     by_harmonics = np.einsum("fain,fanj->aij", weak, grid.modes(grid.angles))
     by_harmonics = (by_harmonics / rings.areas[:, None])[:, 1:] + springs * given
     np.testing.assert_allclose(found, by_harmonics, atol=1e-12 * np.max(found))
-
-
-@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
-def test_shear_along_has_the_resultant_of_its_profile(grid):
-    compliance = contact(grid).compliance
-    f = np.random.default_rng(3).normal(size=compliance.shape[0])
-    q = f[compliance.ring_of_point] * compliance.motions[0]
-    resultant = compliance.tangential_loads(q)[0]
-    assert resultant == pytest.approx(2 * np.pi * np.sum(compliance.rings.areas * f), rel=1e-13)
-    q_x, q_y = cartesian(grid, compliance.vector_on_grid(q))
-    np.testing.assert_allclose(q_x, f[:, None] + 0 * q_x, atol=1e-14)
-    np.testing.assert_allclose(q_y, 0 * q_y, atol=1e-14)
 
 
 def test_singular_equations_are_an_increment_that_does_not_converge(monkeypatch):

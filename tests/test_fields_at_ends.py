@@ -23,20 +23,8 @@ from contact_scene.quantities.increment import (
 )
 from semi_analytical import solve
 
-STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 COUNTS = (1, 12, 12, 12)
-SCENE = slipstick.Scene(
-    indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
-    body=slipstick.Body(material=STEEL),
-    friction=slipstick.CoulombFriction(coefficient=0.1),
-    loading=(
-        slipstick.LoadStep(normal_force=1e3),
-        *(
-            slipstick.LoadStep(tangential_force=(force, 0.0), increments=count)
-            for force, count in zip((60.0, -60.0, 60.0), COUNTS[1:], strict=True)
-        ),
-    ),
-)
+SCENE = scene(PRESS, *(push(part, increments=12) for part in (0.6, -0.6, 0.6)))
 ENDS = np.cumsum(COUNTS) - 1
 
 

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import numpy as np
 import pytest
 from contact_scenes import (
     APPROACH,
@@ -11,26 +10,18 @@ from contact_scenes import (
     MU,
     NU,
     PRESS,
-    RADIUS,
-    A,
     hertz,
     push,
     scene,
-    steel,
 )
 
 import slipstick
 from contact_scene import (
-    Cone,
-    Ellipsoid,
     FiniteElementDiscretisation,
-    HeightMap,
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
-from contact_scene.rig import Rig
 from contact_scene.stepping.increment_error import has_increment_error
-from semi_analytical import plan
 
 # The discretisation, and its error of the shift over that of gross slip.
 SOLVERS: dict[str, tuple[Any, float]] = {
@@ -67,61 +58,3 @@ def test_loads_that_grow_by_more_than_friction_take_many(solver):
     for described in (from_nothing, later):
         assert slipstick.plan(described, solver).increments[-1] > 1
         assert has_increment_error(described)[-1]
-
-
-BUMPS = np.minimum(
-    *(
-        (np.add.outer((np.linspace(-2, 2, 65) * A - x) ** 2, np.linspace(-2, 2, 65) ** 2 * A**2))
-        / 2
-        / RADIUS
-        for x in (-0.8 * A, 0.9 * A)
-    )
-)
-GROWING = {
-    "cone": ({"indenter": Cone(slope_angle=0.02, material=steel())}, None, True),
-    "ellipse, obliquely": (
-        {"indenter": Ellipsoid(radii=(RADIUS, RADIUS / 3), material=steel())},
-        None,
-        True,
-    ),
-    "springs": ({}, Rig(tangential_stiffness=3e8, normal_stiffness=5e8), True),
-    "any shape without Poisson's ratio": (
-        {
-            "indenter": HeightMap(file=BUMPS, spacing=A / 16, material=steel(0.0)),
-            "body": steel(0.0),
-        },
-        None,
-        True,
-    ),
-    "any shape": (
-        {"indenter": HeightMap(file=BUMPS, spacing=A / 16, material=steel())},
-        None,
-        False,
-    ),
-}
-
-
-@pytest.mark.parametrize("name", GROWING)
-def test_other_contacts_grow_without_slip(name):
-    """One increment and eight agree where one is planned: to the error of the cells."""
-    parts, rig, exact = GROWING[name]
-    described = scene(
-        {**PRESS, **push(0.5, 0.3)}, {"normal_force": 1.5 * LOAD, **push(0.3, 0.6)}, **parts
-    )
-    described = described.model_copy(update={"rig": rig})
-    counts = plan(described).increments
-    assert counts == (1, 1) if exact else min(counts) > 8
-    one, many = (
-        slipstick.solve(
-            described.with_increments([n, n]),
-            "semi-analytical",
-            SurfaceDiscretisation(cells=(32, 32)),
-        )
-        for n in (1, 8)
-    )
-    for few, more in zip(one.steps, many.steps, strict=True):
-        close = 1e-4 if exact else 2e-2
-        assert few.tangential_shift == pytest.approx(more.tangential_shift, rel=close)
-        scale = MU * few.peak_pressure
-        assert np.mean(np.abs(few.shear - more.shear)) < 5 * close * scale
-        assert few.energy_imbalance < 1e-8

@@ -13,9 +13,7 @@ from verification.studies.stability.contacts import (
     StabilityCell,
     Surface,
     Verdict,
-    by_superposition,
     judge_contact,
-    pose,
 )
 
 BOTH = [solver for solver in Solver if solver.by_elements]
@@ -118,23 +116,3 @@ def test_what_has_no_solution_is_refused_by_name(
     assert record.verdict is Verdict.REFUSED
     assert record.refused_for is kind
     assert cell.posable == (kind is not Refusal.POSE)
-
-
-def test_the_way_of_the_solver_is_told() -> None:
-    ways = [
-        judge_contact(replace(ORDINARY, **change)).way
-        for change in (
-            {},
-            {"surface": Surface.ALIKE_BALL},
-            {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS},
-        )
-    ]
-    assert ways == ["pressure and shear together", "pressure, then shear", "pressure alone"]
-
-
-def test_contact_that_outgrows_its_window_gets_a_larger_one(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    narrow = pose(ORDINARY)
-    grid = replace(narrow.grid, window=tuple(0.7 * side for side in narrow.grid.window))
-    assert len(by_superposition(replace(narrow, grid=grid)).result.increments) == 4

@@ -1,6 +1,4 @@
-"""Tests of single increments: effects that are off cost nothing, and the path so far."""
-
-from dataclasses import replace
+"""Tests of single increments: costs of effects, the initial guess, and the contact fraction."""
 
 import numpy as np
 import pytest
@@ -12,8 +10,12 @@ from contact_scenes import (
     push,
     scene,
 )
+from coupled_scenes import press
+from coupled_scenes import scene as coupled_scene
 
-from semi_analytical import SurfaceGrid, plan, solve
+from contact_scene.quantities.summary import ContactStatus
+from fem_reference.contact.increment import touching_share as share_of_rings
+from semi_analytical import SurfaceGrid, solve
 from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further,
@@ -22,6 +24,7 @@ from semi_analytical.increments.increment_history import (
 )
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
+from semi_analytical.increments.tangential_state import touching_share
 from semi_analytical.operator.operator import DisplacementOperator
 
 TOLERANCE = 1e-8
@@ -85,19 +88,6 @@ def test_convolutions_count_what_was_convolved(calls):
         assert increment.convolutions == price * calls.count(kind)
 
 
-def test_areas_within_a_load_step_change_nothing_at_its_end():
-    described = scene(PRESS, push(0.7, increments=3), push(-0.7, increments=3))
-    whole, last = (
-        solve(described, grid(), TOLERANCE, plan=replace(plan(described), areas=areas))
-        for areas in ("all", "last")
-    )
-    for one, other in zip(whole.increments, last.increments, strict=True):
-        ends = one.index == one.increments_in_step
-        assert (one.stick_area == other.stick_area) is ends
-        assert other.stick_area <= other.contact_area
-        np.testing.assert_array_equal(one.slip, other.slip)
-
-
 @pytest.mark.parametrize(
     ("cells", "window"),
     [((1, 8), (1.0, 1.0)), ((8, 8), (0.0, 1.0)), ((8, 8), (1.0, np.nan)), ((8, 8), (1.0, np.inf))],
@@ -107,55 +97,41 @@ def test_impossible_grid_is_refused(cells, window):
         SurfaceGrid(cells, window)
 
 
-NOTHING = np.zeros((2, 1, 1))
-FIRST = PreviousIncrement(
-    target=NormalTarget(force=1.0),
-    pressure=NOTHING[0] + 6,
-    shear=NOTHING + 1,
-    displacement=NOTHING + 10,
-    force=np.array([0.1, 0.2]),
-    shift=np.array([1.0, 2.0]),
-    torque=1e-3,
-    twist=1e-6,
-)
-SECOND = replace(
-    FIRST,
-    pressure=NOTHING[0] + 7,
-    shear=NOTHING + 3,
-    displacement=NOTHING + 50,
-    force=np.array([0.3, 0.5]),
-    shift=np.array([3.0, 5.0]),
-    torque=2e-3,
-    twist=3e-6,
-)
+def previous(force, shift, torque, twist, size) -> PreviousIncrement:
+    """State of an increment whose fields have one size."""
+    field = np.full((2, 1, 1), size)
+    loads = {"force": np.array(force), "shift": np.array(shift), "torque": torque, "twist": twist}
+    return PreviousIncrement(NormalTarget(force=1.0), field[0], field, field, **loads)
+
+
+BEHIND = previous((0.1, 0.2), (1.0, 2.0), 1e-3, 1e-6, 1.0)
+NOW = previous((0.3, 0.5), (3.0, 5.0), 2e-3, 3e-6, 3.0)
 WAY = np.array([0.2, 0.3])
 
 
-@pytest.mark.parametrize("part", [0.01, 0.5, 1.0, 2.0])
-def test_where_the_load_goes_straight_on_the_shear_goes_as_much_further(part):
-    for target in (
-        TangentialTarget(force=SECOND.force + part * WAY),
-        TangentialTarget(shift=SECOND.shift + 10 * part * WAY),
-        TangentialTarget(force=SECOND.force + part * WAY, torque=2e-3 + part * 1e-3),
-        TangentialTarget(shift=SECOND.shift + 10 * part * WAY, twist=3e-6 + part * 2e-6),
-    ):
-        assert further(SECOND, FIRST, target) == pytest.approx(part, rel=1e-12)
-        ahead = further_fields(SECOND, FIRST, target)
-        motion = further_motion(SECOND, FIRST, target)
-        twist = [3e-6 + part * 2e-6] if target.torque else []
-        np.testing.assert_allclose(motion, [3 + part * 2, 5 + part * 3, *twist])
-        np.testing.assert_allclose(ahead.pressure, 7 + part)
-        np.testing.assert_allclose(ahead.shear, 3 + 2 * part)
-        np.testing.assert_allclose(ahead.displacement, 50 + 40 * part)
-
-
-@pytest.mark.parametrize("way", [-WAY, 2.1 * WAY, 0 * WAY, WAY @ [[1, 0.01], [0, 1]]])
-def test_where_the_load_turns_rests_or_leaps_the_shear_stays(way):
-    target = TangentialTarget(force=SECOND.force + way)
-    assert further(SECOND, FIRST, target) == 0
-    straight = TangentialTarget(force=SECOND.force + WAY, torque=2e-3 + 2e-3 * way[0] / WAY[0])
-    assert further(SECOND, FIRST, straight) == 0
-    assert further_fields(SECOND, FIRST, target) is SECOND
+@pytest.mark.parametrize(
+    ("way", "turn", "part"),
+    [
+        *((part * WAY, turn, part) for part in (0.01, 0.5, 1.0, 2.0) for turn in (None, part)),
+        *((way, None, 0.0) for way in (-WAY, 2.1 * WAY, 0 * WAY, WAY @ [[1, 0.01], [0, 1]])),
+        (WAY, 2.0, 0.0),
+    ],
+)
+def test_only_where_the_load_goes_straight_on_the_state_goes_as_much_further(way, turn, part):
+    by_force, by_shift = (
+        {"force": NOW.force + way, "torque": turn and NOW.torque + turn * 1e-3},
+        {"shift": NOW.shift + 10 * way, "twist": turn and NOW.twist + turn * 2e-6},
+    )
+    for loads in (by_force, by_shift):
+        target = TangentialTarget(**loads)
+        assert further(NOW, BEHIND, target) == pytest.approx(part, rel=1e-12)
+        ahead = further_fields(NOW, BEHIND, target)
+        for field in (ahead.pressure, ahead.shear, ahead.displacement):
+            np.testing.assert_allclose(field, 3.0 + 2.0 * part)
+        if part:
+            twist = [3e-6 + part * 2e-6] if target.torque else []
+            motion = [3 + part * 2, 5 + part * 3, *twist]
+            np.testing.assert_allclose(further_motion(NOW, BEHIND, target), motion)
 
 
 def products(described, cells):
@@ -171,3 +147,47 @@ def test_a_loop_takes_few_products_on_any_cells():
     few, many = (np.mean(products(loop, cells)) for cells in (32, 128))
     assert few < 17
     assert many < 1.3**2 * few
+
+
+def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():
+    """Its own displacement vanishes by symmetry: what its pressure does around it tells a scale."""
+    odd = SurfaceGrid((45, 45), (9 * grid().window[0], 9 * grid().window[1]))
+    end = solve(coupled_scene(press(1e-6, increments=2)), odd, 1e-10).increments[-1]
+    assert np.count_nonzero(end.in_contact) == 1
+    assert end.status is ContactStatus.FULL_STICK
+    assert end.halvings == 0
+    assert end.residuals.slip_direction < 1e-10
+
+
+X = np.linspace(-1.2, 1.2, 49)
+SQUARED = X[:, None] ** 2 + X**2
+
+
+def hertz(a, squared=SQUARED):
+    """Pressure below a paraboloid in contact up to a, over its largest at a = 1."""
+    return np.sqrt(np.maximum(a**2 - squared, 0.0))
+
+
+@pytest.mark.parametrize("a", [0.0, 0.52, 0.88])
+def test_below_a_paraboloid_the_share_is_that_of_the_area(a):
+    share = touching_share(hertz(a), hertz(1.0), SQUARED)
+    meets = (a**2 < SQUARED) & (SQUARED < 1)
+    np.testing.assert_allclose(share[meets], (1 - SQUARED[meets]) / (1 - a**2), atol=1e-9)
+    assert np.all(share[~meets] == 1)
+
+
+def test_a_lower_summit_touches_later():
+    """Of alike summits each has p² in proportion to how far it is pressed in."""
+    nearer, farther = (SQUARED + 1.2 * X[:, None] * side + 0.36 for side in (1, -1))
+    before, after = hertz(0.3, nearer), hertz(0.5, nearer) + hertz(0.2, farther)
+    share = touching_share(before, after, SQUARED)
+    assert share[farther < 0.04].max() == pytest.approx(0.04 / 0.16)
+
+
+def test_rings_touch_for_their_part_of_the_way_of_the_edge():
+    radii = np.array([0.5, 1.25, 1.75, 3.0])
+    small, large = (1.0, radii > 1.0), (2.0, radii > 2.0)
+    for (edge, apart), (edge_after, apart_after) in ((small, large), (large, small)):
+        share = share_of_rings(radii, apart, apart_after, edge, edge_after)
+        np.testing.assert_allclose(share[:3], [1.0, 0.75, 0.25])
+    assert share_of_rings(radii, small[1], large[1], 1.0, 2.0)[3] == 0.0

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial.legendre import leggauss
-from stack_strategies import HALF_SPACES, stacks
+from stack_strategies import HALF_SPACES
 
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
@@ -24,39 +24,11 @@ POINT_RESPONSES = [
             8.0552623101003821e-8,
         ),
     ),
-    # stiff film, soft base
-    (
-        Stack([(1000000.0, 0.3, 1.0)], (1.0, 0.3)),
-        40.0,
-        (
-            0.076947268138987782,
-            4.6576006388467869e-5,
-            4.3300473754359741e-7,
-            0.00026034097419124825,
-        ),
-    ),
-    # soft film, stiff base
-    (
-        Stack([(1e-06, 0.3, 1.0)], (1.0, 0.3)),
-        0.25,
-        (74124.43125271344, 111639.11918610996, -23930.300967708018, 29043.901596178711),
-    ),
     # soft film, stiff base
     (
         Stack([(1e-06, 0.3, 1.0)], (1.0, 0.3)),
         3.0,
         (-485.7782340511409, 10280.914512076256, -11047.088824037023, -2968.4119300129473),
-    ),
-    # incompressible film, rigid base
-    (
-        Stack([(1.0, 0.5, 1.0)], None),
-        2.0,
-        (
-            -0.0083956498312499456,
-            0.026518262475854758,
-            -0.031635673814751135,
-            -0.020877676703324527,
-        ),
     ),
     # incompressible film, rigid base
     (
@@ -67,17 +39,6 @@ POINT_RESPONSES = [
             0.00043672416151041283,
             -0.00059254867667278364,
             -0.00041566456128911855,
-        ),
-    ),
-    # film on thin incompressible film, rigid base
-    (
-        Stack([(10000.0, 0.3, 1.0), (1.0, 0.5, 0.1)], None),
-        0.25,
-        (
-            1.3106741639278465e-5,
-            2.1163119507043594e-5,
-            -2.3754802182501965e-6,
-            3.5795540703427079e-6,
         ),
     ),
     # film on thin incompressible film, rigid base
@@ -96,12 +57,6 @@ POINT_RESPONSES = [
         Stack([(3.0, 0.2, 1.0), (0.5, 0.4, 12.0)], (2.0, 0.25)),
         10.0,
         (0.069319341168501458, 0.15263570196064001, -0.034943849130287488, 0.012170331256436841),
-    ),
-    # thin under thick
-    (
-        Stack([(3.0, 0.2, 1.0), (0.001, 0.4, 0.002), (10.0, 0.49, 0.03)], (2.0, 0.0)),
-        0.25,
-        (0.065672796206017195, 0.056019805522383775, -0.0052616131055777438, 0.017524800953107738),
     ),
     # thin under thick
     (
@@ -150,24 +105,6 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
     error = np.abs(all_components(layered) - all_components(expected)).max()
     # What the corner differences of the closed form lose at this distance.
     assert error < 2e-13 * own_cell(layered)
-
-
-@given(stacks(max_layers=3).filter(lambda body: body.layers), st.floats(0.1, 10), st.floats(0.3, 3))
-def test_cells_add_up(stack, size, aspect):
-    """A cell of 3 x 3 cells is displaced at its centre by the sum of the nine."""
-    dx, dy = size, size * aspect
-    fine = all_components(LayeredCoefficients(stack, (dx, dy), (27, 24)))
-    coarse = all_components(LayeredCoefficients(stack, (3 * dx, 3 * dy), (8, 7)))
-    odd_x, odd_y = np.array([1, 1, 1, -1, -1, 1]), np.array([1, 1, 1, -1, 1, -1])
-    total = np.zeros_like(coarse)
-    for i in range(-1, 2):
-        for j in range(-1, 2):
-            a, b = 3 * np.arange(8) + i, 3 * np.arange(7) + j
-            part = fine[:, abs(a)[:, None], abs(b)]
-            part *= np.where(a < 0, odd_x[:, None], 1)[:, :, None]
-            part *= np.where(b < 0, odd_y[:, None], 1)[:, None, :]
-            total += part
-    assert np.abs(total - coarse).max() < 1e-11 * np.abs(coarse).max()
 
 
 HARD = {

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from contact_scenes import PRESS, push, scene
 
 import slipstick
 from contact_scene.quantities import stored_fields
 from contact_scene.quantities.increment import ReportedIncrement
 
 EARLY = 0.3  # of the increments: all is allocated, and fields go into the file
-STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 
 
 def resident_bytes() -> int:
@@ -36,19 +36,9 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="memory is read 
 
 def pushed(solver: str, count: int) -> slipstick.Scene:
     """To the half of the friction limit, or where that is of no use pressed further."""
-    then = slipstick.LoadStep(tangential_force=(50.0, 0.0), increments=count)
-    further = slipstick.LoadStep(normal_force=2e3, increments=count)
-    return slipstick.Scene(
-        indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
-        body=slipstick.Body(material=STEEL),
-        friction=slipstick.CoulombFriction(coefficient=0.1)
-        if solver == "semi-analytical"
-        else None,
-        loading=(
-            slipstick.LoadStep(normal_force=1e3),
-            then if solver == "semi-analytical" else further,
-        ),
-    )
+    if solver == "radial":
+        return scene(PRESS, {"normal_force": 2e3, "increments": count}, friction=None)
+    return scene(PRESS, push(0.5, increments=count))
 
 
 many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])

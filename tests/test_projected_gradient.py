@@ -76,45 +76,34 @@ def again(problem: Any, solution: Any) -> tuple[Any, Any]:
     return np.stack([*solution.shear, solution.pressure]), found
 
 
-def drawn(seed: int) -> Scene:
-    """A load history of two to four steps on similar or on coated bodies, and its friction."""
+def drawn(seed: int, *, of_revolution: bool = False) -> Scene:
+    """A load history of two to four steps on similar or on coated bodies, and its friction.
+
+    With the symmetry of rings it has loads along x or torsion alone.
+    """
     rng = np.random.default_rng(seed)
     friction = float(10 ** rng.uniform(-2, -0.3))
     press = {"normal_force": LOAD * rng.uniform(0.5, 1)}
     alike = rng.random() < 0.5
-    if alike and rng.random() < 0.3:
-        press = {"approach": APPROACH * rng.uniform(0.7, 1)}
-    if rng.random() < 0.2:
-        press["moment"] = tuple(0.1 * LOAD * A * rng.uniform(-1, 1, 2))
-    loading = [press]
-    for _ in range(rng.integers(1, 4)):
-        angle, part = rng.uniform(0, 2 * np.pi), rng.choice([0.3, 0.6, 0.9])
-        along = np.array([np.cos(angle), np.sin(angle)])
-        step = {"tangential_force": tuple(0.3 * friction * LOAD * part * along)}
-        if rng.random() < 0.3:
-            step = {"tangential_shift": tuple(0.3 * friction * APPROACH * part * along)}
+    # Elements do not combine torsion and coupling.
+    twists = of_revolution and alike and rng.random() < 0.3
+    if not of_revolution:
+        if alike and rng.random() < 0.3:
+            press = {"approach": APPROACH * rng.uniform(0.7, 1)}
         if rng.random() < 0.2:
+            press["moment"] = tuple(0.1 * LOAD * A * rng.uniform(-1, 1, 2))
+    loading = [press]
+    for part in rng.choice([-0.9, -0.6, 0.3, 0.6, 0.9], rng.integers(1, 4)):
+        angle = 0.0 if of_revolution else rng.uniform(0, 2 * np.pi)
+        along = 0.3 * friction * part * np.array([np.cos(angle), np.sin(angle)])
+        step = {"tangential_force": tuple(LOAD * along)}
+        if twists:
+            step = {"torque": 0.2 * friction * LOAD * A * part}
+        if not of_revolution and rng.random() < 0.3:
+            step = {"tangential_shift": tuple(APPROACH * along)}
+        if not of_revolution and rng.random() < 0.2:
             step["torque"] = 0.02 * friction * LOAD * A * rng.uniform(-1, 1)
         loading.append(step)
-    loading = [{"increments": 1, **step} for step in loading]
-    if alike:
-        return scene(*loading, friction=friction)
-    film = coated(10 ** rng.uniform(-0.7, 1), rng.uniform(0.1, 1), rng.choice([0.0, 0.3, 0.49]))
-    return coupled_scene(*loading, body=film, friction=friction)
-
-
-def drawn_of_revolution(seed: int) -> Scene:
-    """A load history of two to four steps with the symmetry of rings: along x, or torsion."""
-    rng = np.random.default_rng(seed)
-    friction = float(10 ** rng.uniform(-2, -0.3))
-    loading = [{"normal_force": LOAD * rng.uniform(0.5, 1)}]
-    alike = rng.random() < 0.4
-    twists = alike and rng.random() < 0.3  # elements do not combine torsion and coupling
-    for part in rng.choice([-0.9, -0.5, 0.3, 0.6, 0.9], rng.integers(1, 4)):
-        if twists:
-            loading.append({"torque": 0.2 * friction * LOAD * A * part})
-        else:
-            loading.append({"tangential_force": (0.4 * friction * LOAD * part, 0.0)})
     loading = [{"increments": 1, **step} for step in loading]
     if alike:
         return scene(*loading, friction=friction)
@@ -169,7 +158,7 @@ def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
 ) -> None:
     names = ("solve_pressure", "solve_shear", "solve_together")
     kept = keep_increments(monkeypatch, *((point_problem, name) for name in names))
-    solved(drawn_of_revolution(seed), 6, law, harmonics=3)
+    solved(drawn(seed, of_revolution=True), 6, law, harmonics=3)
     assert_same_tractions(kept[1:])
 
 
@@ -179,7 +168,7 @@ def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(
 ) -> None:
     names = ("solve_by_newton", "solve_together")
     kept = keep_increments(monkeypatch, *((ring_friction, name) for name in names))
-    asked = drawn_of_revolution(seed)
+    asked = drawn(seed, of_revolution=True)
     chosen = radial.plan(asked)  # torsion at points, although it has a closed form
     few = replace(chosen, circle=chosen.circle or RingAngles.ONE, fineness=0.3)
     radial.solve(asked, plan=few)
@@ -189,7 +178,7 @@ def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(
 def test_a_loose_tolerance_gives_admissible_tractions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Exact inverses: iterates far from the solution are not admissible and do not count."""
     kept = keep_increments(monkeypatch, (point_problem, "solve_together"))
-    solved(drawn_of_revolution(3), 6, harmonics=3)
+    solved(drawn(3, of_revolution=True), 6, harmonics=3)
     problem, solution = kept[-1]
     start = solution.pressure, 0.99 * solution.shear, solution.motion
     found = solve_by_newton(problem, *start, 0.1)

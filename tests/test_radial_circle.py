@@ -22,20 +22,16 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import ContactAtZoneEdge
-from contact_solver.dense_inverse import DenseInverse
-from contact_solver.zones import Zones
 from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_friction import solve_increment
-from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import (
     Loads,
     PointState,
 )
-from radial.tangential.stiffness_inverse import StiffnessInverse
 
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
 # of a ball with R = 1 and E* = 1: a = 1/100
@@ -79,12 +75,6 @@ def rough(asked: Scene, **how: Any) -> radial.Result:
     return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
 
 
-@cache
-def points(circle: RingAngles) -> ContactPoints:
-    asked = scene()
-    return create_points(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
-
-
 CALLED_FOR = {
     "pressed": ((), {}, None),
     "twisted, alike": ((twist(0.4),), ALIKE, None),
@@ -121,14 +111,6 @@ def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
                 one.pressure,
                 atol=1e-9 * one.peak_pressure,
             )
-
-
-@pytest.mark.parametrize("circle", RingAngles)
-def test_compliances_are_positive_and_the_same_both_ways(circle: RingAngles) -> None:
-    found = points(circle) if circle is not RingAngles.ONE else points(RingAngles.HALF).axisymmetric
-    matrix = found.compliance
-    assert_allclose(matrix, matrix.T, atol=1e-14 * np.max(matrix))
-    assert np.min(np.linalg.eigvalsh(matrix)) > 0
 
 
 TOLERANCE = 1e-9
@@ -206,34 +188,6 @@ def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int
     exact = points.energies[harmonic, :, way] @ RADII
     exact = 2 * math.pi / count * exact[..., None] * ways[:, None]
     assert_allclose(moved, exact, atol=1e-14)
-
-
-@pytest.mark.parametrize("slipping", [0.0, 0.4, 1.0])
-def test_inverse_from_the_stiffness_is_that_of_the_matrix_in_any_zones(slipping: float) -> None:
-    """Some rings inside are open; `DenseInverse` factorises the matrix of the free tractions."""
-    points, rng = alike(), np.random.default_rng(7)
-    ring = np.repeat(np.arange(len(RADII)), points.count)
-    contact = (ring < 20) & (ring != 3)
-    slips = contact & (rng.random(len(contact)) < slipping)
-    slip = np.flatnonzero(slips)
-    angle = rng.uniform(0, 2 * math.pi, len(slip))
-    normal = np.stack([np.cos(angle), np.sin(angle)])
-    slope = rng.uniform(0, 1, len(slip)) * normal
-    compliance = points.equal_compliance
-    own = np.median(compliance.diagonal)
-    zones = Zones(contact, contact & ~slips, slip, normal, own * rng.random(len(slip)), slope)
-    rows = rng.standard_normal((2, zones.size))
-    found = StiffnessInverse(compliance, points.stiffness, points.count).in_zones(zones)(rows)
-    exact = DenseInverse(compliance.matrix).in_zones(zones)(rows)
-    assert_allclose(found, exact, atol=1e-8 * np.max(np.abs(exact)))
-
-
-@pytest.mark.parametrize(("last", "share"), [(0.3, 1.0), (0.4, 2.0), (0.2, 0.5)])
-def test_a_load_that_goes_on_starts_in_proportion(last: float, share: float) -> None:
-    """From the state before, by so many of its increments as the load goes on."""
-    before = after(last - (0.5 - last) / share, last)
-    start, rest = RingProblem.of(alike(), LAW, pushed(0.5), before).initial_guesses(before)
-    assert_allclose((start - rest)[:-4], share * before.changed[:-4], atol=1e-9)
 
 
 def test_a_first_guess_has_pressure_where_the_surfaces_overlap() -> None:

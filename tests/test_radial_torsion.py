@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import radial
@@ -24,7 +22,6 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.geometry import ShapedBody
-from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
 from radial.normal.disc import (
     Disc,
@@ -104,20 +101,6 @@ def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> 
         assert np.all(shear <= FRICTION * pressure(contact, r) * (1 + 1e-9))
 
 
-@given(amounts=st.lists(st.floats(-3.0, 3.0), min_size=1, max_size=6))
-def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
-    torsion = twisted(BARE)[1]
-    unit = torsion.partial_slip(0.5).twist
-    assert unit > 0
-    by_twist = by_torque = TwistPath(torsion)
-    for amount in amounts:
-        by_twist = by_twist.continue_to_twist(amount * unit)
-        by_torque = by_torque.continue_to_torque(by_twist.torque)
-        assert_allclose(by_torque.twist, by_twist.twist, rtol=1e-7, atol=1e-9 * unit)
-        nearly = 1e-12 * abs(by_twist.work) + np.finfo(float).tiny
-        assert by_twist.work >= by_twist.dissipated - nearly
-
-
 def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
     torsion = twisted(BARE)[1]
     far = 2 * torsion.partial_slip(0.5).twist
@@ -126,18 +109,6 @@ def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
     lost = again.dissipated - first.dissipated
     assert_allclose(again.work - first.work, lost, rtol=1e-9)
     assert lost > 3 * first.dissipated > 0
-
-
-def test_beyond_its_limit_the_contact_turns_and_carries_no_more() -> None:
-    slippery = CoulombFriction(coefficient=0.01)
-    steps = LoadStep(twist=0.9), LoadStep(twist=0.0)
-    torsion = radial.solve(scene_of(BARE, *steps, friction=slippery))
-    sliding, back = torsion.steps[1:]
-    assert sliding.status is ContactStatus.GROSS_SLIDING
-    carried = np.pi**2 / 8 * 0.01 * sliding.peak_pressure * sliding.contact_radius**3
-    assert_allclose(sliding.torque, carried, rtol=1e-9)
-    assert back.torque is not None
-    assert_allclose(back.torque, -sliding.torque, rtol=1e-9)  # type: ignore[operator]
 
 
 def test_slip_that_does_not_begin_at_the_edge_is_refused() -> None:

@@ -13,7 +13,6 @@ from scipy.stats import norm
 
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
-    Ellipsoid,
     HeightMap,
     SurfaceDiscretisation,
 )
@@ -148,16 +147,6 @@ def resolved(*loading, **parts):
 def test_contact_is_counted_in_cells(cells, radius):
     found = resolved(PRESS, friction=None, cells=cells, contacts=cells / 2 / radius)
     assert found.contact == pytest.approx(radius, abs=0.8 / radius)
-
-
-@pytest.mark.parametrize("axis", [0, 1])
-def test_of_an_ellipse_the_smaller_semi_axis_counts_whatever_way_it_lies(axis):
-    radii, window = (RADIUS, 9 * RADIUS), (4 * A, 6 * A)
-    lying = Ellipsoid(radii=radii[:: 1 - 2 * axis], material=steel())
-    surface = SurfaceGrid((48, 48), window[:: 1 - 2 * axis])
-    result = solve(scene(PRESS, friction=None, indenter=lying), surface, TOLERANCE)
-    across = np.max(np.sum(result.steps[0].in_contact, axis=axis))
-    assert resolution(result)[0].contact == pytest.approx(across / 2, abs=0.5)
 
 
 def test_the_stick_zone_shrinks_as_cattaneo_says_and_slip_takes_the_rest():

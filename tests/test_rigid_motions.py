@@ -20,7 +20,6 @@ from contact_scene import Ellipsoid
 from contact_scene.solver_errors import NotConverged
 from semi_analytical import (
     ContactNotResolved,
-    plan,
     solve,
 )
 from semi_analytical.increments import stick_slip
@@ -39,11 +38,6 @@ def end(*loading, on=GRID, **more):
 def lean(x, y=0.0):
     """The moment of the full load acting at parts of the contact radius from the origin."""
     return {"moment": (y * A * LOAD, x * A * LOAD)}
-
-
-def roll(x, y=0.0):
-    """The tilt by which a ball rolls so far."""
-    return {"tilt": (y * A / RADIUS, x * A / RADIUS)}
 
 
 def twist(part, **more):
@@ -79,22 +73,6 @@ def test_forces_are_the_derivatives_of_the_energy(indenter):
     )
 
 
-@pytest.mark.parametrize(
-    ("loading", "tilts", "twists"),
-    [
-        ((PRESS, {"twist": 0.0, "tilt": (0.0, 0.0)}, push(0.3)), False, False),
-        ((PRESS, roll(0.1)), True, False),
-        ((PRESS, twist(0.3)), False, True),
-        ((PRESS, {"torque": 0.0}), False, False),  # nothing is sheared: it cannot turn
-    ],
-)
-def test_rotations_are_solved_for_where_a_step_calls_for_them(loading, tilts, twists):
-    decided = plan(scene(*loading))
-    assert (decided.tilt, decided.torsion) == (tilts, twists)
-    effects = {effect.name: effect.on for effect in decided.effects}
-    assert (effects["tilt"], effects["torsion"]) == (tilts, twists)
-
-
 def test_reciprocity_of_force_and_torque():
     """A contact beside the origin that sticks: what a force turns, a torque shifts."""
     beside = {**PRESS, **lean(0.0, 0.4), "torque": 0.0}
@@ -112,23 +90,6 @@ def test_a_torque_that_is_missed_on_either_side_is_not_accepted(part, monkeypatc
     monkeypatch.setattr(stick_slip, "torque_of", lambda *given: part * reported(*given))
     with pytest.raises(NotConverged):
         end(PRESS, twist(0.3))
-
-
-def test_reciprocity_of_force_and_moment():
-    """The ball rolls: dω_z/dM = dφ/dW, both - M/(W²R)."""
-    d = 1e-3
-
-    def state(load, moment):
-        return end({"normal_force": load, "moment": (0.0, moment)}, friction=None)
-
-    M = 0.3 * A * LOAD
-    by_moment = (state(LOAD, (1 + d) * M).approach - state(LOAD, (1 - d) * M).approach) / (
-        2 * d * M
-    )
-    by_load = (state((1 + d) * LOAD, M).tilt[1] - state((1 - d) * LOAD, M).tilt[1]) / (2 * d * LOAD)
-    assert by_moment == pytest.approx(by_load, rel=1e-4)
-    # The contact passes over few cells: between two of them it rolls by fits and starts.
-    assert by_moment == pytest.approx(-M / (LOAD**2 * RADIUS), rel=0.1)
 
 
 def test_a_force_on_the_rim_of_a_punch_tips_it_over():

@@ -151,12 +151,9 @@ def test_a_window_beyond_the_friction_map_is_refused(tmp_path: Path) -> None:
 # ---- random files
 
 
-EXAMPLE = (Path(__file__).resolve().parents[1] / "scenes" / "fretting_loop.toml").read_bytes()
-
 # The profile says how much: dev and ci 25 -> 100 and 500, nightly 2 000 -> 8 000 and 40 000
 # examples.
 STRUCTURED = settings(max_examples=7 * settings().max_examples)
-BYTES = settings(max_examples=35 * settings().max_examples)
 LONGEST = 0.05  # seconds of CPU; of 1 250 examples half took 0.5 ms, the longest 4 ms
 
 JUNK: st.SearchStrategy[Any] = st.recursive(
@@ -237,20 +234,6 @@ def mutated(draw: st.DrawFn) -> Document:
 @given(mutated())
 def test_a_mutated_scene_is_read_or_refused(folder: Path, document: Document) -> None:
     assert outcome(folder, as_toml(document).encode())
-
-
-@BYTES
-@given(st.data())
-def test_a_mutated_file_is_read_or_refused(folder: Path, data: st.DataObject) -> None:
-    contents = bytearray(EXAMPLE)
-    for _ in range(data.draw(st.integers(1, 4))):
-        at = data.draw(st.integers(0, len(contents)))
-        length = data.draw(st.sampled_from([0, 0, 1, 1, 2, 10, 500]))
-        contents[at : at + length] = data.draw(
-            st.binary(max_size=3)
-            | st.sampled_from([b"\n", b'"', b"[", b"]", b"{", b"=", b".", b"0"])
-        )
-    assert outcome(folder, bytes(contents))
 
 
 @given(st.binary(max_size=200) | st.text(max_size=100).map(str.encode))

@@ -68,20 +68,11 @@ def test_each_part_of_the_border_has_its_own_law():
     assert radius_of(area) == pytest.approx(15.2, abs=0.05)
 
 
-@pytest.mark.parametrize("exponent", [0.5, 1.5])
-def test_shear_that_turns_across_the_border_does_not_move_it(exponent):
-    """Five degrees a cell, as behind a pushed ball."""
-    end = contact(14.2, exponent, turning=np.radians(5))
-    assert radius_of(stick_area(*end)) == pytest.approx(14.2, abs=0.05)
-
-
 def test_a_mirrored_or_turned_zone_is_as_large():
-    shear, bound, stick = contact(9.3, 0.5, (0.2, -0.4))
-    area = stick_area(shear, bound, stick)
-    turned = (np.rot90(shear, 1, (1, 2)), np.rot90(bound), np.rot90(stick))
-    assert stick_area(*turned) == pytest.approx(area, rel=1e-12)
-    mirrored = stick_area(shear[:, :, ::-1], bound[:, ::-1], stick[:, ::-1])
-    assert mirrored == pytest.approx(area, rel=1e-12)
+    zone = contact(9.3, 0.5, (0.2, -0.4))
+    area = pytest.approx(stick_area(*zone), rel=1e-12)
+    assert stick_area(*(np.rot90(field, 1, (-2, -1)) for field in zone)) == area
+    assert stick_area(*(field[..., ::-1] for field in zone)) == area
     for end in (contact(18.4, 1.5), contact(9.3, 0.5, turning=np.radians(5))):
         for domain in (ReducedDomain((True, True), (-1, 1)), ReducedDomain((False, True))):
             even = [domain.extend(domain.restrict(field)) for field in end]
@@ -128,14 +119,6 @@ def test_a_quarter_tells_the_area(cells):
     quarter = QUARTER
     part = covered_cells(quarter.restrict(values), quarter.restrict(values > 0), quarter)
     assert 4 * part == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
-
-
-def test_values_that_rise_to_the_edge_count_whole_cells():
-    """Below a flat punch the pressure grows to infinity: nothing tells where in a cell it ends."""
-    disc = dome((20, 20)) > 0
-    x, y = np.indices(disc.shape) - 35.5
-    values = np.where(disc, 1 / np.sqrt(np.where(disc, 401 - x**2 - y**2, 1.0)), 0.0)
-    assert covered_cells(values, disc) == pytest.approx(np.count_nonzero(disc), rel=2e-3)
 
 
 @pytest.mark.parametrize("turned_back", [False, True], ids=["pushed", "turned back"])

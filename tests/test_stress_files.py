@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from stored_mesh import read_mesh
-from test_surface import FRICTION, pressed_and_pushed
 
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.stress import on_cells
@@ -18,7 +17,13 @@ from contact_results.stress.on_section import OnSection
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_result import write_stress
-from contact_scene import machine
+from contact_scene import (
+    Body,
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    Layer,
+    machine,
+)
 from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.stress import field as stress_field
@@ -26,6 +31,21 @@ from semi_analytical.stress import field as stress_field
 RADII = np.linspace(0, 1.2, 25)
 X = (np.arange(16) - 7.5) * 2.4 / 16
 ALONG_Y = (0.0, 1.0)
+SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
+FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
+COATED = Body(material=SOFT, layers=(FILM,))
+FRICTION = 0.5
+
+
+def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> LoadedBodies:
+    """Gross sliding along x under a Hertz pressure."""
+    tractions = {"pressure": pressure}
+    if "x" in axes:
+        tractions["shear"] = np.stack([FRICTION * pressure, 0 * pressure])
+    else:
+        tractions["shear_along_load"] = FRICTION * pressure
+    asked = FiniteElementDiscretisation(elements_per_radius=8)
+    return LoadedBodies("", COATED, COATED, 1, axes, tractions, asked)
 
 
 def hertz(r: np.ndarray) -> np.ndarray:

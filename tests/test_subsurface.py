@@ -1,12 +1,13 @@
-"""Tests of the stress below the cells of a contact: planes, symmetry and depths."""
+"""Tests of the stress below cells: fields of one cell, planes, symmetry and depths."""
 
 import numpy as np
 import pytest
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.frf.depth import Level
-from semi_analytical.frf.stack import Stack
+from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.grid import SurfaceGrid
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.stress import (
     SubsurfaceField,
     default_depths,
@@ -14,12 +15,13 @@ from semi_analytical.stress import (
     interfaces,
     subsurface,
 )
-from semi_analytical.stress.convolution import mirror_planes
+from semi_analytical.stress.field import depth_coefficients
+from semi_analytical.stress.rectangle import half_space_response
 
 NU = 0.3
 HALF_SPACE = Stack((), (1.0, NU))
 COATED = Stack([(3.0, 0.2, 0.3), (0.5, 0.5, 0.4)], (1.0, 0.3))
-XX, YY, ZZ, YZ, XZ, XY = range(6)
+ZZ, YZ, XZ, XY = range(2, 6)
 GRID = SurfaceGrid((8, 8), (1.0, 1.0))
 LOAD = np.ones((8, 8))
 
@@ -47,28 +49,6 @@ def test_some_rows_have_the_fields_of_the_plane(rng):
             )
             np.testing.assert_allclose(some.stress, whole.stress[..., rows], atol=1e-12)
             np.testing.assert_allclose(some.displacement, whole.displacement[..., rows], atol=1e-12)
-
-
-@pytest.mark.parametrize("cells", [(12, 10), (11, 10)])
-@pytest.mark.parametrize("axes", [(0,), (1,), (0, 1)], ids=["x", "y", "both"])
-def test_mirrored_tractions_have_the_sum_of_the_fields_of_their_parts(axes, cells, rng):
-    """The parts are not symmetric; the sum uses its mirror planes."""
-    grid = SurfaceGrid(cells, (1.2, 1.0))
-    tractions = rng.normal(size=(3, *cells))
-    for axis in axes:
-        image = np.flip(tractions, 1 + axis).copy()
-        image[axis] *= -1
-        tractions = tractions + image
-    assert np.flatnonzero(mirror_planes(tractions)).tolist() == list(axes)
-    part = rng.random(cells) * tractions
-    whole, one, other = (
-        subsurface(COATED, grid, p, np.stack([q_x, q_y]), [0.05, 0.5])
-        for q_x, q_y, p in (tractions, part, tractions - part)
-    )
-    np.testing.assert_allclose(whole.stress, one.stress + other.stress, atol=1e-12)
-    np.testing.assert_allclose(
-        whole.displacement, one.displacement + other.displacement, atol=1e-12
-    )
 
 
 def test_a_number_on_an_interface_is_its_upper_side():
@@ -106,3 +86,53 @@ def test_default_depths_reach_both_sides_of_every_interface():
 def test_depths_outside_of_the_body_are_refused(stack, depth, complaint):
     with pytest.raises(ValueError, match=complaint):
         subsurface(stack, GRID, LOAD, None, [depth])
+
+
+DX = 1.0
+DY = 0.6
+
+
+def under_cell(x, y, z, nu, G=1.7):
+    """Fields (9, 3) at a point by unit tractions on the cell DX by DY at the origin."""
+    corners = np.array([x - DX / 2, x + DX / 2]), np.array([y - DY / 2, y + DY / 2])
+    return half_space_response(*corners, z, HalfSpace(G, nu))[..., 0, 0]
+
+
+def test_closed_form_carries_the_traction_at_the_surface():
+    loaded, beside = under_cell(0.2, 0.1, 0.0, 0.3), under_cell(0.8, 0.1, 0.0, 0.3)
+    # zz, yz, xz by (q_x, q_y, p)
+    np.testing.assert_allclose(loaded[5:8], [[0, 0, -1], [0, -1, 0], [-1, 0, 0]], atol=1e-15)
+    np.testing.assert_allclose(beside[5:8], 0, atol=1e-15)
+
+
+def test_closed_form_moves_the_surface_like_the_surface_coefficients():
+    surface = HalfSpaceCoefficients((DX, DY), (3, 2), 1.7, 0.3)
+    moved = under_cell(2 * DX, DY, 0.0, 0.3)[:3]
+    xx, yy, zz, xy, zx, zy = (surface[name][2, 1] for name in ("xx", "yy", "zz", "xy", "zx", "zy"))
+    expected = [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
+    np.testing.assert_allclose(moved, expected, rtol=1e-13)
+
+
+def scales(coefficients):
+    """Largest response of each field, to judge rounding by."""
+    return np.abs(coefficients).max(axis=(1, 2, 3))[:, None, None, None]
+
+
+@pytest.mark.parametrize("thickness", [20.0, 0.3, 1e-3])
+def test_layer_of_the_substrates_material_is_not_there(thickness):
+    """From layers twice as thick as the window is wide to a hundredth of a cell."""
+    spacing, shape = (0.1, 0.08), (50, 50)
+    layered = Stack([(1.7, 0.3, thickness)], (1.7, 0.3))
+    depths = [0.0, 0.5 * thickness, thickness, thickness, 1.5 * thickness]
+    levels = tuple(Level(z, k) for z, k in zip(depths, (0, 0, 0, 1, 1), strict=True))
+    alone = tuple(Level(z, 0) for z in depths)
+    pairs = zip(
+        depth_coefficients(layered, levels, spacing, shape),
+        depth_coefficients(Stack((), (1.7, 0.3)), alone, spacing, shape),
+        strict=True,
+    )
+    assert len(levels) == 5
+    for found, expected in pairs:
+        # Rounding of the corners does not fall with the depth as the coefficients do: 1e-16 each,
+        # where one cell at the surface has 1.
+        assert np.all(np.abs(found - expected) <= 1e-14 + 1e-12 * scales(expected))

@@ -6,16 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from stored_mesh import read_mesh
 
 from contact_results.files.surface_file import write_surface
-from contact_results.stress.invariants import principal_stresses, von_mises
-from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import StressPoints
 from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
-from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial, Layer
 from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
@@ -111,12 +105,6 @@ def test_weights_integrate_over_the_surface() -> None:
         assert np.max(np.abs(np.array(both) - exact) / allowed) <= 1
 
 
-def test_rings_stand_for_the_disc_they_reach() -> None:
-    for radii in (np.array([0.0, 0.1, 0.4, 1.0]), np.array([0.2, 0.3, 1.0])):
-        for points in (None, 6):
-            assert np.sum(rings(radii, points).weights) == pytest.approx(np.pi, rel=1e-14)
-
-
 def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None:
     """A vector along the load, of components outward and around the axis."""
     half = rings(np.linspace(0.0, REACH, 16), 9, OBLIQUE)
@@ -133,65 +121,3 @@ def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None
     expected = hump(np.hypot(*mesh.points[:, :2].T))[:, None] * [*OBLIQUE, 0.0]
     assert len(mesh.points) == 16 * len(half.radii)
     np.testing.assert_allclose(mesh.at_points["shear [Pa]"], expected, atol=ROUND_OFF)
-
-
-SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
-FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
-COATED = Body(material=SOFT, layers=(FILM,))
-FRICTION = 0.5
-
-
-def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> LoadedBodies:
-    """Gross sliding along x under a Hertz pressure."""
-    tractions = {"pressure": pressure}
-    if "x" in axes:
-        tractions["shear"] = np.stack([FRICTION * pressure, 0 * pressure])
-    else:
-        tractions["shear_along_load"] = FRICTION * pressure
-    asked = FiniteElementDiscretisation(elements_per_radius=8)
-    return LoadedBodies("", COATED, COATED, 1, axes, tractions, asked)
-
-
-def test_measures_of_a_pure_shear() -> None:
-    nothing, one = np.zeros(1), np.zeros((3, 1))
-    shear = np.array([0, 0, 0, 0, 3.0, 0])[:, None]
-    points = StressPoints(nothing, nothing, nothing, nothing.astype(int), one, shear, nothing > 0)
-    found = {name: value.item() for name, value in points.measures.items()}
-    expected = {"von_mises": 3 * np.sqrt(3), "max_principal": 3.0, "max_shear": 3.0}
-    expected |= {"interface_shear": 3.0, "interface_tensile_stress": 0.0}
-    assert found == pytest.approx(expected)
-
-
-# Sixth powers of a stress are taken: below 1e-50 they underflow.
-STRESS = st.floats(-1e9, 1e9).map(lambda s: s if abs(s) > 1e-50 else 0.0)
-STRESSES = st.lists(STRESS, min_size=6, max_size=6).map(np.array)
-
-
-def tensor(s):
-    xx, yy, zz, yz, xz, xy = s
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-def components(t):
-    return np.array([t[0, 0], t[1, 1], t[2, 2], t[1, 2], t[0, 2], t[0, 1]])
-
-
-@given(STRESSES)
-def test_von_mises_follows_from_the_principal_stresses(stress):
-    a, b, c = principal_stresses(stress)
-    expected = np.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2)
-    assert von_mises(stress) == pytest.approx(expected, rel=1e-7, abs=1e-6)
-    assert a >= b >= c
-    assert a + b + c == pytest.approx(stress[:3].sum(), abs=1e-12 * (1 + np.abs(stress).max()) * 10)
-
-
-@given(STRESSES, st.integers(0, 2**32 - 1), st.sampled_from([0, 1e-15, 1e-12, 1e-8, 1e-3]))
-def test_principal_stresses_keep_their_digits_where_two_are_equal(values, seed, apart):
-    turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    first, _, third, *_ = values
-    pair, triple = (first, first * (1 + apart), third), (first, first, first * (1 - apart))
-    for roots in (pair, triple, values[:3]):
-        whole = tensor(components(turn @ np.diag(roots) @ turn.T))
-        found = principal_stresses(components(whole))
-        exact = np.linalg.eigvalsh(whole)[::-1]
-        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-14 * np.abs(exact).max())

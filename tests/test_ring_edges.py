@@ -1,19 +1,17 @@
-"""Tests of contact and stick radii that are determined from values at the rings."""
+"""Tests of contact and stick radii that are determined from values at the rings of elements, and
+at the points of rings."""
 
 from functools import partial
 from math import pi
 
 import numpy as np
 import pytest
-from contact_scenes import LOAD, A, scene
-from fem_scenes import end
 from random_compliance import as_map, pressed
 from scipy.linalg import toeplitz
 
 from contact_scene import Body, IsotropicMaterial
 from contact_solver.dense_inverse import inverse_on
 from contact_solver.pressure import PressureProblem, solve_pressure
-from fem_reference import Method
 from fem_reference.compliance.gauss_points import loading_part
 from fem_reference.compliance.ring_edge import (
     GaussEdge,
@@ -21,6 +19,7 @@ from fem_reference.compliance.ring_edge import (
     beyond_pressure,
     stick_area,
 )
+from radial.tangential.stick_border import stick_area as point_stick_area
 
 CENTRE = 200
 
@@ -75,23 +74,6 @@ def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -
     anything = np.random.default_rng(1).normal(size=r.shape)
     loading_no_node = anything - loading_part(r, anything)
     assert GaussEdge(1.0).radius(r, p + 0.1 * loading_no_node, last, step) == pytest.approx(edge)
-
-
-@pytest.mark.parametrize("elements", [16, 32])
-def test_radius_of_a_ball_is_known_to_a_small_part_of_an_element(elements: int) -> None:
-    for part in np.linspace(0.6, 1.0, 9):
-        load = LOAD * part**3
-        found = end(scene({"normal_force": load}, friction=None), elements, contact_radius=A)
-        assert found.contact_radius == pytest.approx(part * A, abs=0.03 * A / elements)
-
-
-@pytest.mark.parametrize("penalty", [1.0, 10.0, 100.0, 1e3])
-@pytest.mark.parametrize("radius", [1.03, 1.2])
-def test_a_stiff_penalty_does_not_move_the_contact_edge(penalty: float, radius: float) -> None:
-    pressed_ball = scene({"normal_force": LOAD}, friction=None)
-    mesh = {"penalty": penalty, "contact_radius": radius * A}
-    found = end(pressed_ball, 16, Method.PENALTY, **mesh)
-    assert found.contact_radius == pytest.approx(A, abs=0.1 * radius * A / 16)
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e-9])
@@ -155,3 +137,28 @@ def test_a_stuck_ring_beyond_the_contact_edge_has_no_area() -> None:
     assert stick_area(radii, bound, shear, slips, 4.2, HatEdge()) == pytest.approx(
         pi * (4.2**2 - 3.5**2)
     )
+
+
+RINGS = np.arange(9.0)
+
+
+@pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
+@pytest.mark.parametrize("count", [6, 7])
+def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
+    beyond: float, count: int
+) -> None:
+    missing = plane_contact(150 + beyond)
+    radii, sticks = np.arange(len(missing)) * 1.0, missing > 0
+    size = np.tile(200.0 - missing, (count, 1)).T
+    angles = 2 * np.pi * np.arange(count) / count
+    shear = np.stack([size * np.cos(angles), -size * np.sin(angles)])
+    whole = np.tile(sticks, (count, 1)).T
+    area = point_stick_area(radii, shear, np.full(size.shape, 200.0), whole)
+    assert np.sqrt(area / np.pi) == pytest.approx(150 + beyond, abs=6e-3)
+
+
+def test_all_that_sticks_counts_and_nothing_else() -> None:
+    shear, bound = np.zeros((2, 9, 8)), np.ones((9, 8))
+    for share in (0.0, 1.0):
+        area = point_stick_area(RINGS, shear, bound, np.full((9, 8), share > 0))
+        assert area == pytest.approx(share * np.pi * RINGS[-1] ** 2)

@@ -1,0 +1,219 @@
+"""Tests of the formula of stated errors: parts, sizes, orders, and numbers that need more cells."""
+
+import ast
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from contact_scenes import (
+    PRESS,
+    push,
+    scene,
+)
+from error_scenes import size
+
+import contact_errors
+from contact_errors.error_formula import (
+    Comparison,
+    SolvedRun,
+    build_stated_error,
+    characteristic_size,
+    largest_so_far,
+)
+from contact_scene import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+)
+from contact_scene.contact_features import Features
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
+from fem_reference import Method
+from fem_reference import Path as ElementPath
+from fem_reference.discretised import ElementSolver
+from radial.discretised import RingSolver
+
+
+def errors_of_one(order: float, comparisons: list[Comparison], features: Features) -> StatedError:
+    """Error of an approach of 2 with the natural sizes of a contact."""
+    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
+    values = {name: np.ones(1) for name in names} | {"approach": np.array([2.0])}
+    needed = {comparison.part: [True] for comparison in comparisons} or {"cells": [True]}
+    run = SolvedRun(scene(PRESS), [values], [1e-8], [features], comparisons, needed, {})
+    return next(run.errors())["approach"]
+
+
+def test_a_worked_example() -> None:
+    """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 3 times the root mean square of
+    0.06/(2^4 + 1)^½ = 0.01455 and 0.02/(1.875^4 + 1)^½ = 0.00547; increments 0.01/(2^0.6 - 1) =
+    0.01939; tolerance 10·2e-8."""
+    two, coarse, other, recut = ([{"approach": np.array([x])}] for x in (2.0, 2.06, 1.98, 2.01))
+    comparisons = [
+        Comparison("cells", two, coarse, [2.0]),
+        Comparison("cells", two, other, [1.875]),
+        Comparison("increments", two, recut, [2.0]),
+    ]
+    found = errors_of_one(2.0, comparisons, Features(contact=10))
+    assert found.status is ErrorStatus.ESTIMATED
+    assert found.parts == pytest.approx(
+        {"cells": 0.03298, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
+    )
+    few = errors_of_one(2.0, comparisons, Features(contact=3.9))
+    far = [Comparison("cells", two, [{"approach": np.array([5.0])}], [2.0])]
+    assert few.status is ErrorStatus.NOT_CONVERGED
+    assert "contact is 3.9 cells, below the limit 4" in (few.reason or "")
+    large = errors_of_one(2.0, far, Features(10))
+    assert large.status is ErrorStatus.NOT_CONVERGED
+    assert "exceeds the number" in (large.reason or "")
+    unknown = errors_of_one(2.0, [], Features(10))
+    assert unknown.error is None
+    assert "coarse solve" in (unknown.reason or "")
+    assert found.reason is None
+
+
+@pytest.mark.parametrize(
+    ("size", "status"),
+    [(1e-20, ErrorStatus.ESTIMATED), (1e-6, ErrorStatus.NOT_CONVERGED)],
+    ids=["round-off", "slip"],
+)
+def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStatus) -> None:
+    """A slip annulus narrower than half a cell leaves the shift open only where something slips."""
+    names = ("approach", "normal_force", "contact_radius", "contact_area", "peak_pressure")
+    sizes = {name: np.ones(1) for name in names}
+    fine, coarse = ([{**sizes, "tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
+    cells = Comparison("cells", fine, coarse, [2.0])
+    posed, features = scene({**PRESS, **push(0.1)}), Features(10, annulus=0.0)
+    run = SolvedRun(posed, fine, [1e-8], [features], [cells], {"cells": [True]}, {})
+    assert next(run.errors())["tangential_shift"].status is status
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    {"torque": 15.0, "approach": 2.0, "twist": 0.4, "elastic_energy": 6.0}.items(),
+)
+def test_a_size_is_made_of_those_with_its_unit(name, expected) -> None:
+    sizes = {"approach": 2.0, "normal_force": 3.0, "contact_radius": 5.0}
+    values = {key: np.array([size]) for key, size in sizes.items()}
+    others = {"contact_area": np.zeros(1), "peak_pressure": np.zeros(1)}
+    assert characteristic_size(name, values | others) == pytest.approx(expected)
+
+
+def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None:
+    steps = [SimpleNamespace(worst_residual=size) for size in (1e-9, 1e-5)]
+    rings = RingSolver(scene({"approach": 1e-6}), RadialDiscretisation())
+    assert rings.residuals(cast("Any", SimpleNamespace(steps=steps))) == [1e-9, 1e-5]
+    inclined = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.SHEARING))
+    elements = ElementSolver(rings.scene, FiniteElementDiscretisation())
+    ratio = rings.scene.body.elastic_materials[0].poisson_ratio
+    left = 1 - np.cos(ratio / (4 - 2 * ratio))  # of Mindlin's slip across the load
+    assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
+        left, rel=0.01
+    )
+    pushed = SimpleNamespace(
+        plan=SimpleNamespace(path=ElementPath.HARMONICS),
+        sections=[SimpleNamespace(outline=SimpleNamespace(box=40.0))],
+    )
+    mesh = FiniteElementDiscretisation(overlap=1e-3, harmonics=12)
+    solver = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
+    solves = solver.mesh_coarse_solves(mesh, cast("Any", pushed))
+    found = {coarse.key: (coarse.value, coarse.ratio) for coarse in solves}
+    assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0])
+@pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
+@pytest.mark.parametrize("part", ["cells", "section"])
+def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios, part) -> None:
+    """Three spreads cover a systematic error as well; the order of other parts is 2."""
+    order = order if part == "cells" else 2.0
+    exact, fine = 2.0, 2.0 + 0.1**order
+    coarse = [2.0 + (0.1 * ratio) ** order for ratio in ratios]
+    of_fine, *others = ([{"approach": np.array([x])}] for x in (fine, *coarse))
+    comparisons = [
+        Comparison(part, of_fine, other, [ratio])
+        for other, ratio in zip(others, ratios, strict=True)
+    ]
+    found = errors_of_one(order, comparisons, Features(10, largest_order=order))
+    assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
+
+
+def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
+    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure", "approach")
+    at_2, at_3 = ({name: np.full(1, size) for name in names} for size in (2.0, 3.0))
+    part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
+    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), [Features(contact=10)] * 2
+    run = SolvedRun(posed, [at_2] * 2, [1e-8] * 2, features, [part], {"cells": [True] * 2}, {})
+    first, second = (step["peak_pressure"].error for step in run.errors())
+    assert second == first > 0.1
+
+
+def test_components_of_a_vector_share_one_size() -> None:
+    steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
+    sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
+    np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
+    assert build_stated_error({"cells": np.array([1.0, 2.0])}, None).error == (1.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "features", "resolved"),
+    [
+        ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
+        ("approach", {"layer": 0.9}, False),
+        ("approach", {"wave": 3.9}, False),
+        ("stick_radius", {"stick": 0.9}, False),
+        ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
+        ("tangential_shift", {"stick": 0.0, "annulus": 9.0}, False),
+        ("tangential_shift", {"stick": 0.0, "annulus": 9.0, "slides": True}, True),
+        ("tangential_shift", {"stick": 0.0, "annulus": 0.0}, False),
+        ("dissipated_energy", {"stick": 9.0, "annulus": 0.0}, False),
+        ("peak_pressure", {"stick": 0.0}, True),
+        ("peak_pressure", {"stick": 0.0, "cusp": True}, False),
+        ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
+    ],
+)
+def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
+    assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
+
+
+def test_constants_are_those_that_are_explained() -> None:
+    """A new constant in the package, or where a solver describes its discretisation, needs a
+    derivation, and an entry here: no quantity and no kind of scene has a constant of its own.
+    Functions have units and round-off alone."""
+    found, within = set(), set()
+    root = Path(contact_errors.__file__).parents[1]
+    features = root / "contact_scene" / "contact_features.py"
+    for path in (*root.glob("contact_errors/*.py"), *root.glob("*/discretised.py"), features):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        for node in tree.body:
+            if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
+                target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+                found |= {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
+            else:
+                within |= numbers_in(node)
+    assert found == set(CONSTANTS.split())
+    assert within <= {0, 0.5, 1, 2, 3, 4, 6, 10, 30, 1e-9, 1e-3}
+
+
+def numbers_in(node: ast.AST) -> set[float]:
+    parts = (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
+    return {value for value in parts if type(value) in (int, float)}
+
+
+# Of the formula, the coarse solves, the refinement and the cost estimate.
+CONSTANTS = """
+SPREADS BELIEVED SMOOTH EDGE ROOT PER_TOLERANCE LARGEST_SHARE REFERENCE_PRECISION ORDERS LIMITS
+FITTED_STICK FITTED_SLIP NARROWEST STICK_SIZES ROUND_OFF PRECISION HIGHEST
+
+SHARES SHARES_OF_SMALL SMALL FEW MANY PER_RADIUS NEGLIGIBLE ROOM MAX_ENLARGEMENTS FEWEST_ELEMENTS
+SMALLEST_BOX FEWEST_HARMONICS LARGEST_OVERLAP LINEAR NEAR COARSE OF_FINER OF_ANOTHER_FIT
+EDGE_PRECISION FINENESS
+
+SPARE DOUBT FURTHEST MAX_AT_ONCE LEAST_AT_ONCE UNCONVERGED MAX_ROUNDS MAX_WORSE FIRST_CELLS
+FIRST_PATH_ACCURACY MAX_CELLS LEAST_TOLERANCE MAX_DOUBLINGS DOUBLING FIRST_ELEMENTS MAX_ELEMENTS
+MAX_HARMONICS LEAST_OVERLAP LARGEST_BOX FIRST_FINENESS MAX_FINENESS
+
+EXPONENT CELL_OVERHEAD ELEMENT_OVERHEAD RING_OVERHEAD SET_UP_INCREMENTS INCREMENTS STEPS MAX_STEPS
+"""

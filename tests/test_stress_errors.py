@@ -1,0 +1,172 @@
+"""Tests of the errors of stresses: they cover the true errors of largest stresses and of points."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from contact_scenes import (
+    PRESS,
+    A,
+    grid,
+    hertz,
+    paraboloid,
+    push,
+    scene,
+    steel,
+)
+from error_scenes import cells, indented, size
+
+import slipstick as package
+from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import OnCells
+from contact_results.stress.stress_maxima import extremes
+from contact_scene import (
+    RIGID,
+    Cone,
+    Layer,
+    LoadStep,
+    RadialDiscretisation,
+)
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
+from semi_analytical import solve
+from slipstick import stated_errors
+from verification.closed_forms.huber_stress import axis_stress, trailing_edge_tension
+
+
+def largest_tension(result: Any) -> tuple[float, StatedError]:
+    """Of the body, at the end."""
+    of_body = largest_stresses(result, stated_errors(result), ["max_principal@body"])
+    ((value, error),) = of_body.values()
+    assert error is not None
+    return value, error
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [24, 48])
+def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> None:
+    """A stiff film pushed along: 2.0 GPa behind the contact, 1.6 GPa inside."""
+    radius = (3 * 150 * 0.011 * (1 - 0.3**2) / 4 / 210e9) ** (1 / 3)
+    film = Layer(thickness=0.4 * radius, material=steel(0.2, 840e9))
+    push_ = LoadStep(tangential_force=(0.6 * 0.3 * 150, 0.0))
+    posed = indented(0.011, 150.0, film, steel(0.3, 210e9), 0.3, push_)
+    result = package.solve(posed, "semi-analytical", cells(count))
+    value, error = largest_tension(result)
+    assert error.status is ErrorStatus.NOT_CONVERGED or abs(value - 2.0e9) <= size(error)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "modulus", "count", "widest"),
+    [
+        (0.04, 600e9, 24, 0.1),
+        (0.04, 600e9, 64, 0.05),
+        (0.4, 420e9, 48, 0.05),
+        (0.4, 420e9, 64, 0.05),
+    ],
+)
+def test_the_tension_at_a_coating_pressed_without_friction_is_known(
+    thickness: float, modulus: float, count: int, widest: float
+) -> None:
+    """A film thinner than a cell, whose pressure the cells do not resolve, and a thicker one."""
+    film = Layer(thickness=thickness * A, material=steel(0.25, modulus))
+    posed = indented(0.018, 1e3, film, steel(0.3, 210e9), None)
+    result = package.solve(posed, "semi-analytical", cells(count))
+    value, error = largest_tension(result)
+    exact, _ = largest_tension(package.solve(posed, "radial"))
+    assert error.status is ErrorStatus.ESTIMATED
+    assert abs(value - exact) <= size(error) <= widest * exact
+
+
+def test_a_stress_below_a_tip_is_not_converged_near_the_surface() -> None:
+    posed = scene(PRESS, indenter=Cone(slope_angle=0.02, material=RIGID), friction=None)
+    result = package.solve(posed, "semi-analytical", cells(24))
+    names = ["von_mises@body", "max_shear@body"]
+    found = [e for _, e in largest_stresses(result, stated_errors(result), names).values()]
+    assert [error.status for error in found] == [ErrorStatus.NOT_CONVERGED] * len(names)
+    assert all("infinite" in error.reason for error in found)
+
+
+def largest_on_axis(nu: float) -> float:
+    """Largest von Mises stress below Hertz's contact over its peak pressure (Huber 1904)."""
+    stress = axis_stress(np.linspace(0.3, 0.7, 40001), 1.0, 1.0, nu)
+    return float(np.max(np.abs(stress.axial - stress.radial)))
+
+
+@pytest.mark.parametrize("deeper", [0.0, 0.03, 0.06, 0.09, 0.13])
+def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
+    """Below Hertz's contact the stress on the axis is known (Johnson 1985, eq. 3.45)."""
+    posed = scene(PRESS, indenter=paraboloid(steel(0.3)), body=steel(0.3))
+    result = package.solve(posed, "semi-analytical", cells(64))
+    state = state_of_result(result, 1, stated_errors(result))
+    radius = result.steps[0].contact_radius
+    depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
+    field = OnCells(state).stress(depths)
+    found = [e for e in extremes(field) if e.measure != "max_principal"]
+    assert found
+    exact = hertz().peak_pressure * largest_on_axis(0.3)
+    for extreme, error in zip(
+        found, stress_errors(state, field, found, at_depths=True), strict=True
+    ):
+        largest = exact if extreme.measure == "von_mises" else exact / 2
+        assert abs(extreme.value - largest) <= size(error) <= 0.05 * largest
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3])
+def test_a_largest_stress_between_the_depths_of_the_radial_solver_is_covered(nu: float) -> None:
+    posed = scene(PRESS, friction=None, indenter=paraboloid(RIGID), body=steel(nu))
+    result = package.solve(posed, "radial", RadialDiscretisation())
+    ((found, error),) = largest_stresses(result, stated_errors(result), ["von_mises@body"]).values()
+    exact = result.steps[-1].peak_pressure * largest_on_axis(nu)
+    assert error is not None
+    assert abs(found - exact) <= size(error) < 1e-8 * exact
+
+
+def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monkeypatch) -> None:
+    """The same change between cells leaves the larger error where the order is lower."""
+    state = state_of_result(solve(scene(PRESS), grid(24), 1e-8), 1)
+    depth = np.array([0.01 * A, A])
+    monkeypatch.setattr(
+        OnCells,
+        "stress_at",
+        lambda one, *_: SimpleNamespace(
+            depth=depth, stress=np.full((6, 2), float(one.state is not state))
+        ),
+    )
+    _, (near, below) = stress_at(state, depth, depth, [])
+    assert near > 1.2 * below > 0
+
+
+def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
+    """As in a run without errors; a contact that is pressed alone has no increment error."""
+    result = solve(scene(PRESS, push(0.5)), grid(16), 1e-8)
+    for step, expected in ((1, ErrorStatus.ESTIMATED), (2, ErrorStatus.NOT_CONVERGED)):
+        state = state_of_result(result, step)
+        field = OnCells(state).stress([0.0, 0.5 * A])
+        (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
+        (error,) = stress_errors(state, field, [deepest], at_depths=True)
+        assert error.status is expected, error.reason
+
+
+@pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
+def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
+    """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
+    slid = {"tangential_shift": (1e-4, 0.0)}
+    posed = scene(PRESS, slid, indenter=paraboloid(steel()), friction=friction)
+    value, error = largest_tension(package.solve(posed, "semi-analytical", cells(count)))
+    exact = trailing_edge_tension(hertz().peak_pressure, friction, 0.3)
+    assert error.status is ErrorStatus.ESTIMATED
+    assert abs(value - exact) <= size(error) <= 0.01 * exact
+
+
+@pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
+def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: int) -> None:
+    """At the edge of Hertz's contact it is (1 - 2ν)/3 of the peak, however close ν is to ½."""
+    posed = scene(PRESS, indenter=paraboloid(steel(nu)), body=steel(nu))
+    result = package.solve(posed, "semi-analytical", cells(count))
+    value, error = largest_tension(result)
+    exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
+    assert abs(value - exact) <= size(error) <= 0.01 * hertz().peak_pressure
