@@ -39,6 +39,7 @@ AXES = {
     "x": ("m", "cell centres along x"),
     "y": ("m", "cell centres along y"),
     "radii": ("m", "radii of the rings"),
+    "distances": ("m", "distances from the middle of a line contact, on both sides"),
     "angles": ("rad", "from the direction of the tangential load"),
 }
 PER_INCREMENT = ("increment",)
