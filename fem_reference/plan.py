@@ -67,7 +67,7 @@ CROSS_SLIP = (
     | dict.fromkeys(ANGULAR, "Coulomb's law is obeyed as a vector law at every point")
 )
 
-IN_PLANE = "plane strain: shear and slip are across the line of contact"
+IN_PLANE = "plane strain: shear and slip are along the load"
 SPRINGS = "the springs of the penalty law change the stiffness; use fem-complementarity"
 
 
