@@ -107,7 +107,8 @@ class ElementSolver(DiscretisedSolver):
         radius = meshed_radius(self.scene, asked.contact_radius)
         chosen = "" if asked.contact_radius else ", estimated without friction"
         yield "method", _method_text(self.method, asked)
-        yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
+        name = "half width" if self.scene.indenter.is_line else "contact radius"
+        yield name, f"{quantity(radius, 'm')}{chosen}"
         yield "mesh", _mesh_text(self._sections, asked)
 
     def describe_work(self) -> Pairs:
@@ -332,8 +333,10 @@ def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
 
 def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretisation) -> str:
     """Return the text of the number of elements and of the size of the meshed sections."""
-    parts = []
+    parts, per, sizes = [], "contact radius", "contact radii"
     for section in sections:
         outline = section.outline
-        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
-    return f"{fineness.elements_per_radius} elements per contact radius; " + ", ".join(parts)
+        if outline.plane:
+            per, sizes = "half width", "half widths"
+        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} {sizes}")
+    return f"{fineness.elements_per_radius} elements per {per}; " + ", ".join(parts)
