@@ -313,7 +313,7 @@ REFUSED_ON_ELEMENTS: dict[str, tuple[dict[str, Any], str]] = {
     "tilt": ({"loading": [{"normal_force": FORCE, "moment": [0, 10.0]}]}, "does not tilt"),
     "slanted profile": (
         {"indenter": {"shape": "line_profile", "radius": None, "file": SLANTED}},
-        "not axisymmetric",
+        "not symmetric about x = 0",
     ),
 }
 

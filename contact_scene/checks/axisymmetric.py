@@ -56,10 +56,10 @@ class AxisymmetricLoads:
 
         scene     contact problem with its load history
         contrast  largest ratio of shear moduli within a body that the solver carries
-        lines     True if the solver takes line contacts that are symmetric about x = 0
+        lines     True if the solver takes line contacts
         """
         refuse_equator(scene)
-        if not (lines and scene.indenter.is_line and scene.indenter.is_even):
+        if not (lines and scene.indenter.is_line):
             refuse_shape(scene)
         refuse_contrast(scene, contrast, f", and this solver carries a ratio up to {contrast:.0e}")
         friction, ramps = scene.friction is not None, tuple(scene.load_path())
