@@ -108,8 +108,7 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
     if scene.indenter.is_line and not scene.indenter.is_even:
         raise UnsupportedScene(
             "the line profile is not symmetric about x = 0, and finite elements represent a line "
-            "contact by one half of its section. Give equal heights at x and -x, bit for bit, or "
-            f"{ELSEWHERE}"
+            f"contact by one half of its section. Give equal heights at x and -x, or {ELSEWHERE}"
         )
     loads = AxisymmetricLoads.of(scene, MAX_CONTRAST, lines=True)
     _refuse_compliant_bonds(scene)

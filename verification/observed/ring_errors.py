@@ -188,8 +188,11 @@ def relative_l1(
 
 
 def _weight(increment: Increment, r: Field) -> Field:
-    """Return the weight of integrals over dr: r, or 1 in a line contact."""
-    return np.ones_like(r) if increment.is_line else r
+    """Return the weight of integrals over dr: r, or 1 in a line contact.
+
+    Fields of another program, which are judged too, are of bodies of revolution.
+    """
+    return np.ones_like(r) if getattr(increment, "is_line", False) else r
 
 
 def judged_within(elements: int) -> float:
