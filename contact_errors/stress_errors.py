@@ -241,7 +241,9 @@ def _reference_maxima(
     measures = {extreme.measure for extreme in found}
     try:
         result = radial.solve(alone.model_copy(update={"loading": (load,)}))
-        known = replace(state_of_result(result, None), strain=state.strain)
+        known = state_of_result(result, None)
+        # The solver merges layers of equal constants; the measures of their interfaces are kept.
+        known = replace(known, strain=state.strain, body=state.body, indenter=state.indenter)
         field = OnDisc(known, indenter, measures=measures).stress()
     except (SolverError, NoSuchState):
         return None

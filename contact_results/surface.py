@@ -1,8 +1,8 @@
 """Surface grids of a result: the points that carry tractions, gap and slip.
 
 `Cells` holds the rectangular cells of the semi-analytical solver. `Rings` holds the rings around
-the z axis of the finite elements and of the radial solver. Files, figures and sums read the results
-of all solvers through `Surface`, which is one of the two.
+the z axis of the finite elements and of the radial solver, or pairs of lines in a line contact.
+Files, figures and sums read the results of all solvers through `Surface`, which is one of the two.
 """
 
 from __future__ import annotations
@@ -139,12 +139,14 @@ class Rings:
                fields depend on the radius alone
     direction  unit vector of the tangential load
     polar      True if all vectors have constant radial and circumferential components on each ring
+    of_strips  True in a line contact: a ring is a pair of lines at x and -x with equal fields
     """
 
     radii: Field
     angles: Field | None
     direction: tuple[float, float]
     polar: bool
+    of_strips: bool = False
 
     @property
     def covers_circle(self) -> bool:
@@ -156,7 +158,12 @@ class Rings:
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """Radii of the rings [length], and angles [radian] if the fields have any, by name."""
+        """Radii of the rings [length], and angles [radian] if the fields have any, by name.
+
+        The radii of a line contact have the name "distances".
+        """
+        if self.of_strips:
+            return {"distances": self.radii}
         return {"radii": self.radii} | ({} if self.angles is None else {"angles": self.angles})
 
     @property
@@ -173,9 +180,16 @@ class Rings:
 
         The weight is ∫ψ r dr times the range of angles that a point represents (2π without angles).
         ψ is the hat function of a ring: 1 on this ring, linear, 0 on the adjacent rings. Inside the
-        first ring its hat function stays 1 up to the axis.
+        first ring its hat function stays 1 up to the axis. In a line contact the weight is ∫ψ dr of
+        both lines, per unit length.
         """
         inner, outer = self.radii[:-1], self.radii[1:]
+        if self.of_strips:
+            width = np.zeros_like(self.radii)
+            width[0] = 2 * self.radii[0]
+            width[:-1] += outer - inner
+            width[1:] += outer - inner
+            return width
         area = np.zeros_like(self.radii)
         area[0] = self.radii[0] ** 2 / 2
         area[:-1] += (outer - inner) * (2 * inner + outer) / 6
@@ -197,7 +211,8 @@ class Rings:
         along_x = self.direction == (1.0, 0.0)
         load = ("x", "y") if along_x else ("∥", "⊥")
         if self.angles is None:
-            return ProfileLine(self.radii, "radius r", ("r", "θ") if self.polar else load)
+            label = "x" if self.of_strips else "radius r"
+            return ProfileLine(self.radii, label, ("r", "θ") if self.polar else load)
         places = np.concatenate([-self.radii[::-1], self.radii])
         label = "x at y = 0" if along_x else "distance from the axis along the load"
         return ProfileLine(places, label, load)
@@ -323,11 +338,13 @@ def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Sur
     """Create the surface grid with the given coordinates of its points.
 
     axes       coordinates by name: x and y of cell centres, or radii and, optionally, angles of
-               rings
+               rings, or distances in a line contact
     direction  unit vector of the tangential load, which points at angle 0; used for rings only
     """
     if "radii" in axes:
         return Rings(axes["radii"], axes.get("angles"), direction, polar=False)
+    if "distances" in axes:
+        return Rings(axes["distances"], None, direction, polar=False, of_strips=True)
     x, y = axes["x"], axes["y"]
     if len(y) == 1:
         return Cells(x, y, float(x[-1] - x[0]) / (len(x) - 1))
@@ -341,4 +358,5 @@ def surface_of(result: Result) -> Surface:
     increments = result.increments
     angles = next((i.angles for i in increments if i.angles is not None), None)
     polar = all(i.shear_along_load is None and i.slip_along_load is None for i in increments)
-    return Rings(increments[0].radii, angles, result.plan.direction, polar)
+    strips = increments[0].is_line
+    return Rings(increments[0].radii, angles, result.plan.direction, polar, strips)

@@ -106,11 +106,15 @@ def coupled(scene: Scene, on: bool, why: str) -> Effect:
 def contact_stiffness(scene: Scene, refused: str = "") -> tuple[Effect, ...]:
     """Describe the computation of the contact stiffnesses, if the scene requests it.
 
+    They are not computed on line contacts.
+
     scene    contact problem
     refused  reason why the solver does not compute them; empty if it does
     """
     if not scene.contact_stiffness:
         return ()
+    if scene.indenter.is_line:
+        refused = "the approach of a line contact depends on the reference length"
     why = refused or "contact_stiffness is true: one linear solve per motion at the end of a step"
     return (Effect("contact stiffness", not refused, why),)
 

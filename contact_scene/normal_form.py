@@ -52,6 +52,21 @@ def normal_form(scene: Scene) -> Scene:
     return scene if found == scene else found
 
 
+def with_bodies_of(scene: Scene, given: Scene) -> Scene:
+    """Return a scene with the layers and materials of another one, such as that of the user.
+
+    Interfaces of merged layers, at which a stress may be wanted, and strengths are then kept.
+
+    scene  scene of a result, in normal form
+    given  scene before its normal form
+    """
+    upper = given.indenter
+    indenter = scene.indenter.model_copy(
+        update={"material": upper.material, "layers": upper.layers}
+    )
+    return scene.model_copy(update={"body": given.body, "indenter": indenter})
+
+
 def _without_strengths(body: B) -> B:
     """Return a body without the strengths of its materials and interfaces."""
     layers = tuple(

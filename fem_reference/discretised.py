@@ -107,7 +107,8 @@ class ElementSolver(DiscretisedSolver):
         radius = meshed_radius(self.scene, asked.contact_radius)
         chosen = "" if asked.contact_radius else ", estimated without friction"
         yield "method", _method_text(self.method, asked)
-        yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
+        name = "half width" if self.scene.indenter.is_line else "contact radius"
+        yield name, f"{quantity(radius, 'm')}{chosen}"
         yield "mesh", _mesh_text(self._sections, asked)
 
     def describe_work(self) -> Pairs:
@@ -187,7 +188,8 @@ class ElementSolver(DiscretisedSolver):
             yield CoarseSolve("harmonics", "two thirds of the harmonics", "harmonics", few, ratio)
         box = max(section.outline.box for section in result.sections if section is not None)
         if (small := max(SMALLEST_BOX, box / 4)) <= box / 2:
-            yield CoarseSolve("section", "smaller section", "box", small, box / small)
+            ratio = (box / small) ** self._section_power
+            yield CoarseSolve("section", "smaller section", "box", small, ratio)
 
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (result.radius / result.discretisation.elements_per_radius,)
@@ -213,6 +215,7 @@ class ElementSolver(DiscretisedSolver):
         path = result.plan.path
         cusped = path in CUSPED or (path is Path.WHOLE_CIRCLE and coupling(self.scene)[0])
         thinnest = min(self.scene.body.thinnest, indenter.thinnest)
+        area = 2 * side if end.is_line else 2 * pi * end.contact_radius * side
         per_length = LINEAR / side
         stick, annulus = slip_zone(end, per_length)
         return Features(
@@ -226,15 +229,16 @@ class ElementSolver(DiscretisedSolver):
             peak_by_edge=True,
             slip_by_line=True,
             slides=end.status is ContactStatus.GROSS_SLIDING,
-            largest={"contact_radius": side, "contact_area": 2 * pi * end.contact_radius * side},
+            largest={"contact_radius": side, "contact_area": area},
         )
 
     def neglected_errors(self, result: Result) -> Mapping[str, float]:
         """Return relative errors of tangential scalars due to the neglected slip across the load.
 
         The asymmetry of a friction map is added. The other errors are not zero for contacts solved
-        with shear along the load only (Path.SHEARING). In Mindlin's solution the slip is inclined
-        to the load by at most α = ν/(4 - 2ν) with Poisson's ratio ν (Johnson 1985, section 7.2).
+        with shear along the load only (Path.SHEARING), in plane strain excepted. In Mindlin's
+        solution the slip is inclined to the load by at most α = ν/(4 - 2ν) with Poisson's ratio ν
+        (Johnson 1985, section 7.2).
         Shear of this inclination carries 1 - α²/2 of the load, so the relative error is α²/2.
         Layers respond differently along and across a wave for any ν, so the largest α, that of
         ν = ½, applies to them.
@@ -245,7 +249,7 @@ class ElementSolver(DiscretisedSolver):
         scalars lack this part: 2α for a narrow annulus (φ → 0) and α for gross slip (φ = π/2).
         """
         by_map = super().neglected_errors(result)
-        if result.plan.path is not Path.SHEARING:
+        if result.plan.path is not Path.SHEARING or self.scene.indenter.is_line:
             return by_map
         bodies = self.scene.body, self.scene.indenter
         ratios = (m.poisson_ratio for body in bodies for m in body.elastic_materials)
@@ -277,7 +281,8 @@ class ElementSolver(DiscretisedSolver):
         if "section" not in by:
             return finer
         box = max(section.outline.box for section in sections_of(self.scene, space))
-        return change_settings(finer, box=min(LARGEST_BOX, box * by["section"]))
+        box *= by["section"] ** (1 / self._section_power)
+        return change_settings(finer, box=min(LARGEST_BOX, box))
 
     def work(self, fineness: Fineness) -> Work:
         harmonics = fineness.space.harmonics if self.plan.path in ANGULAR else 1
@@ -290,6 +295,14 @@ class ElementSolver(DiscretisedSolver):
         sections = sections_of(self.scene, mesh)
         points = count_points(sections, self.plan.path, mesh.harmonics)
         return max(self._factoring_bytes(sections), int(matrix_bytes(points)))
+
+    @property
+    def _section_power(self) -> float:
+        """Power of the size of the section that counts as its refinement factor.
+
+        The error formula assumes an error like 1/L². In plane strain it is like 1/L.
+        """
+        return 0.5 if self.scene.indenter.is_line else 1.0
 
     @cached_property
     def _sections(self) -> Sequence[SectionMesh]:
@@ -320,8 +333,10 @@ def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
 
 def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretisation) -> str:
     """Return the text of the number of elements and of the size of the meshed sections."""
-    parts = []
+    parts, per, sizes = [], "contact radius", "contact radii"
     for section in sections:
         outline = section.outline
-        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
-    return f"{fineness.elements_per_radius} elements per contact radius; " + ", ".join(parts)
+        if outline.plane:
+            per, sizes = "half width", "half widths"
+        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} {sizes}")
+    return f"{fineness.elements_per_radius} elements per {per}; " + ", ".join(parts)

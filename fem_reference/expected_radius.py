@@ -142,20 +142,20 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     scene  contact problem with its bodies
     ramp   linear change of the loads in the load step
     """
-    indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
+    indenter, end = scene.indenter, ramp.normal.end
     if indenter.rim is not None:
         return indenter.rim
     modulus = 1 / (_mean_compliance(scene.body) + _mean_compliance(indenter))
     if ramp.normal.kind is ControlKind.FORCE:
-        power, more = indenter.contact_under(end, modulus), 1
+        power, degree = indenter.contact_under(end, modulus), indenter.load_exponent
     else:
-        power, more = indenter.contact_at(contact_approach(scene, end, modulus)), 0
-    if power is None or exponent is None:
+        power = indenter.contact_at(contact_approach(scene, end, modulus))
+        degree = indenter.gap_exponent
+    if power is None or degree is None:
         raise UnsupportedScene(
             f"the contact radius of this indenter ({shape_text(indenter)}) cannot be estimated "
             "before the solve. Set contact_radius in [fem_reference]"
         )
-    degree = exponent + more
     return sqrt(power[0]) if degree == 2 else power[0] ** (1 / degree)
 
 
@@ -211,6 +211,8 @@ def _coarse_discretisation(scene: Scene, radius: float) -> FiniteElementDiscreti
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]
     deepest = max(sum(layer.thickness for layer in body.layers) for body in bodies)
-    short = 10.0 * deepest <= LARGEST_COARSE_BOX < max(map(sufficient_box, bodies))
+    plane = scene.indenter.is_line
+    enough = max(sufficient_box(body, plane=plane) for body in bodies)
+    short = 10.0 * deepest <= LARGEST_COARSE_BOX < enough
     box = LARGEST_COARSE_BOX if short else None
     return FiniteElementDiscretisation(elements_per_radius=COARSE, box=box)

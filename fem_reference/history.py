@@ -13,6 +13,8 @@ import numpy as np
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import UNSTRAINED
+from contact_scene.checks.line_contact import lacks_reference
+from contact_scene.quantities.per_length import OF_REFERENCE
 from contact_scene.quantities.ring_increment import add_work
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
@@ -136,9 +138,13 @@ class _IncrementSolver(Solver[PointState, Increment]):
         if self.method.plan.stiffness and reached.place.index == reached.place.increments_in_step:
             found = self.method.stiffness(reached.before, reached.state, reached.place.step)
             increment = replace(increment, **found)
-        increment = add_contact_displacements(increment, self.scene.rig)
-        resisted = self.method.work_on_strain(reached.before, reached.state)
-        increment = add_work(last, increment, resisted)
+        if lacks_reference(self.scene.indenter, self.scene.body):
+            unknown: dict[str, Any] = dict.fromkeys(OF_REFERENCE)
+            increment = replace(increment, **unknown)
+        else:
+            increment = add_contact_displacements(increment, self.scene.rig)
+            resisted = self.method.work_on_strain(reached.before, reached.state)
+            increment = add_work(last, increment, resisted)
         if increment.dissipated_energy is None:
             return increment
         uncertain = (last.dissipation_uncertainty if last else None) or 0.0

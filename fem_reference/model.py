@@ -12,14 +12,23 @@ import numpy as np
 from contact_scene import (
     Body,
     FiniteElementDiscretisation,
+    IsotropicMaterial,
     Scene,
 )
 from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
+from contact_scene.geometry import LineShape
 from contact_scene.rig import compliances
 from fem_reference.elasticity.compliance import NodalCompliance, composite
 from fem_reference.elasticity.hat_functions import Hats, hats_on
-from fem_reference.elasticity.motion import PRESSING, SHEARING, Motion
+from fem_reference.elasticity.motion import (
+    LINE_PRESSING,
+    LINE_SHEARING,
+    PRESSING,
+    SHEARING,
+    Motion,
+    line_reference,
+)
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
 
@@ -62,8 +71,9 @@ class ContactModel:
         """
         scales = Scales(radius, outermost_modulus(scene))
         lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))
-        section = _create_section(lower, discretisation)
-        other = section if lower == upper else _create_section(upper, discretisation)
+        plane = scene.indenter.is_line
+        section = _create_section(lower, discretisation, plane=plane)
+        other = section if lower == upper else _create_section(upper, discretisation, plane=plane)
         return cls(scene, scales, (section, other))
 
     @cached_property
@@ -81,7 +91,27 @@ class ContactModel:
 
         If the indenter has a rim, the functions end at the rim.
         """
-        return hats_on(self.radii, self.rim)
+        return hats_on(self.radii, self.rim, self.power)
+
+    @property
+    def plane(self) -> bool:
+        """True for a line contact: the bodies are in plane strain, and loads are per length."""
+        return self.scene.indenter.is_line
+
+    @property
+    def power(self) -> int:
+        """Power of r in the weight of integrals over the surface: 0 in plane strain, else 1."""
+        return 0 if self.plane else 1
+
+    @property
+    def around(self) -> float:
+        """Factor of these integrals: the angle 2π of a circle, or the two halves of a strip."""
+        return 2.0 if self.plane else 2.0 * np.pi
+
+    @property
+    def pressing(self) -> Motion:
+        """Displacement field of normal loading."""
+        return LINE_PRESSING if self.plane else PRESSING
 
     @property
     def rim(self) -> float:
@@ -115,18 +145,18 @@ class ContactModel:
         """Return the compliance of the two surfaces for one kind of loading, in units of the scene.
 
         The matrix contains the displacement of the lower surface relative to the upper surface, per
-        unit generalised nodal force [length/force]. The compliance is computed at its first use and
-        stored. The springs of a rig are included.
+        unit generalised nodal force [length/force], in plane strain per force per length. The
+        compliance is computed at its first use and stored. The springs of a rig are included.
 
         of  displacement field of one angular harmonic, such as PRESSING, SHEARING or TORSION
         """
         if of not in self._compliances:
             condensed = composite(*self.sections, of)
-            name = f"{of.harmonic} {of.components}"
+            name = f"{of.harmonic} {of.components} {of.on_axis}"
             if name not in self.settled:
                 self.factorizations += condensed.factorizations
                 self.settled.add(name)
-            matrix = condensed.matrix / (self.scales.modulus * self.scales.length)
+            matrix = condensed.matrix / (self.scales.modulus * self.scales.length**self.power)
             self._compliances[of] = replace(
                 condensed,
                 radii=self.radii,
@@ -140,8 +170,11 @@ class ContactModel:
         The load acts along x. An entry is the displacement u_x of a surface node, averaged over the
         angle θ, per unit nodal force f(r) along x at a node [length/force]. With q_r = f cos θ and
         q_θ = -f sin θ, the mean of u_x is (u_r - u_θ)/2 in the amplitudes of the harmonic n = 1.
-        Mindlin's approximation neglects u_y and the part of u_x ∝ cos 2θ.
+        Mindlin's approximation neglects u_y and the part of u_x ∝ cos 2θ. In plane strain the entry
+        is u_x, without approximation.
         """
+        if self.plane:
+            return np.asarray(self.compliance(LINE_SHEARING).matrix[0, :, 0])
         C = self.compliance(SHEARING).matrix
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
@@ -150,22 +183,42 @@ class ContactModel:
 
         The springs are in series with the contact and displace all surface nodes equally. The
         result (c, c) contains the displacement components per nodal force on each of the c
-        components [length/force]. It is zero for loadings without a spring.
+        components [length/force]. It is zero for loadings without a spring. In plane strain the
+        motion of the surface by the reference length of the scene is added, which is uniform too.
 
         of  displacement field of one angular harmonic, such as that of normal loading
         """
-        down, along = compliances(self.scene.rig)
-        compliance = {PRESSING: down, SHEARING: along}.get(of, 0.0)
+        down, along = (own + self._reference_compliance() for own in compliances(self.scene.rig))
+        moved = {PRESSING: down, LINE_PRESSING: down, SHEARING: along, LINE_SHEARING: along}
+        compliance = moved.get(of, 0.0)
         return np.asarray(compliance * np.multiply.outer(of.on_axis, of.resultant))
 
+    def _reference_compliance(self) -> float:
+        """Compute the uniform displacement of the surfaces in plane strain per force per length.
 
-def _create_section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
+        The sections count displacements from the unit of length of the meshes, the scene counts
+        them from its reference length (1 m without one) [length^2/force]. Bodies of revolution and
+        rigid bases have no such displacement.
+        """
+        indenter = self.scene.indenter
+        if not isinstance(indenter, LineShape):
+            return 0.0
+        bases = [body.material for body in (self.scene.body, indenter)]
+        elastic = [material for material in bases if isinstance(material, IsotropicMaterial)]
+        farther = (indenter.reference_length or 1.0) / self.scales.length
+        return float(np.log(farther) * sum(map(line_reference, elastic)))
+
+
+def _create_section(
+    body: Body, discretisation: FiniteElementDiscretisation, *, plane: bool
+) -> SectionMesh | None:
     """Create the mesh of the meridional section of a body, or return None for a rigid body.
 
     The discretisation selects the mesher: tensor-product rectangles, or gmsh.
 
     body            layers and substrate in units of the expected contact radius
     discretisation  number of elements per radius, outer radius of the mesh, and mesher
+    plane           True for a body in plane strain
     """
     if not body.deforms:
         return None
@@ -173,7 +226,7 @@ def _create_section(body: Body, discretisation: FiniteElementDiscretisation) -> 
     if discretisation.mesher == "gmsh":
         # Imported here because gmsh requires libraries that are not installed everywhere.
         from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh as make
-    return make(body, discretisation.elements_per_radius, discretisation.box)
+    return make(body, discretisation.elements_per_radius, discretisation.box, plane=plane)
 
 
 def outermost_modulus(scene: Scene) -> float:

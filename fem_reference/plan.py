@@ -67,6 +67,7 @@ CROSS_SLIP = (
     | dict.fromkeys(ANGULAR, "Coulomb's law is obeyed as a vector law at every point")
 )
 
+IN_PLANE = "plane strain: shear and slip are along the load"
 SPRINGS = "the springs of the penalty law change the stiffness; use fem-complementarity"
 
 
@@ -97,13 +98,22 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
     """Determine the tractions that a scene requires, and the increments of each load step.
 
     Effects that do not occur in the scene, such as friction or torsion, are omitted from the solve.
-    Raise UnsupportedScene if the scene is not axisymmetric, or has a tilt.
+    Raise UnsupportedScene if the scene is not axisymmetric, or has a tilt. A line contact is
+    supported if one half of the section represents it: symmetric about x = 0, pressed, and pushed
+    across its line without coupling of pressure and shear.
 
     penalty  True for the penalty law of contact and friction
     """
     scene = normal_form(scene)
-    loads = AxisymmetricLoads.of(scene, MAX_CONTRAST)
+    if scene.indenter.is_line and not scene.indenter.is_even:
+        raise UnsupportedScene(
+            "the line profile is not symmetric about x = 0, and finite elements represent a line "
+            f"contact by one half of its section. Give equal heights at x and -x, or {ELSEWHERE}"
+        )
+    loads = AxisymmetricLoads.of(scene, MAX_CONTRAST, lines=True)
     _refuse_compliant_bonds(scene)
+    if scene.indenter.is_line:
+        _refuse_two_halves(loads)
     path = _choose_path(loads)
     if path is not Path.PRESSING:
         refuse_coefficient_map(scene)
@@ -116,7 +126,7 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
         _list_effects(scene, path, loads)
         + effect.contact_stiffness(scene, SPRINGS if penalty else ""),
         loads.twists,
-        bool(scene.contact_stiffness) and not penalty,
+        bool(scene.contact_stiffness) and not penalty and not scene.indenter.is_line,
     )
 
 
@@ -129,6 +139,25 @@ def _refuse_compliant_bonds(scene: Scene) -> None:
                     f"{name}.layers[{number}].interface_stiffness: the bond is compliant, and "
                     f"finite elements bond layers rigidly. Remove the key, or {ELSEWHERE}"
                 )
+
+
+def _refuse_two_halves(loads: AxisymmetricLoads) -> None:
+    """Raise UnsupportedScene if the two halves of a line contact have different fields.
+
+    loads  loads of the scene, and the causes of shear
+    """
+    why = ""
+    if any(ramp.stretch for ramp in loads.ramps):
+        why = "the lower body has a bulk strain"
+    elif loads.couples:
+        why = f"unlike bodies have friction ({loads.why})"
+    elif loads.friction and any(ramp.tangential.end[1] for ramp in loads.ramps):
+        why = "a step pushes along the line"
+    if why:
+        raise UnsupportedScene(
+            f"{why}, and finite elements represent a line contact by one half of its section, on "
+            f"which pressure and shear across the line are symmetric and not coupled; {ELSEWHERE}"
+        )
 
 
 def _choose_path(loads: AxisymmetricLoads) -> Path:
@@ -244,6 +273,10 @@ def _list_effects(scene: Scene, path: Path, loads: AxisymmetricLoads) -> tuple[E
         ),
         effect.strained(scene),
         effect.coupled(scene, loads.couples, loads.why),
-        Effect("slip across the load", path in ANGULAR, CROSS_SLIP[path]),
+        Effect(
+            "slip across the load",
+            path in ANGULAR,
+            IN_PLANE if scene.indenter.is_line else CROSS_SLIP[path],
+        ),
         effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
     )

@@ -24,6 +24,8 @@ class Increment(RingIncrement):
                 of Newton steps
     """
 
+    approach: float
+
 
 @dataclass(frozen=True, repr=False)
 class Result(LoadHistory[Increment]):

@@ -37,7 +37,6 @@ EDGES = "edge correction"
 EDGE_COST = "10 to 100 convolutions each time"
 
 # Reason why contact stiffnesses are not computed.
-ON_LINE = "the approach of a line contact depends on the reference length"
 # Names of the effects that can also be computed if they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
@@ -121,7 +120,6 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     )
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
-    line = scene.indenter.is_line
     couples, why = coupling(scene)
     coupled = scene.friction is not None and scene.friction.largest > 0 and couples
     strained = any(ramp.stretch for ramp in scene.load_path())
@@ -153,11 +151,11 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         torsion,
         acting,
         path,
-        effects + effect.contact_stiffness(scene, ON_LINE if line else ""),
+        effects + effect.contact_stiffness(scene),
         corrected,
         symmetry,
         couples=coupled,
-        stiffness=bool(scene.contact_stiffness) and not line,
+        stiffness=bool(scene.contact_stiffness) and not scene.indenter.is_line,
     )
 
 

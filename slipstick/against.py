@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from contact_results.files.stored_run import StoredRun
 from contact_results.surface import Rings
+from contact_scene.checks.line_contact import lacks_reference
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.reading import units
 from contact_scene.reading.text_table import ColumnNames
@@ -421,7 +422,9 @@ def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -
         SHEAR: None if shear is None else np.tensordot(surface.direction, shear, 1),
     }
     # The relative error of tractions is that of the peak pressure; that of shear includes the
-    # errors of tangential force and shift.
+    # errors of tangential force and shift. A line contact without reference length has no shift,
+    # and its shear does not depend on that length: the error of the stick zone replaces it.
+    moved = "stick_radius" if lacks_reference(run.scene.indenter, run.scene.body) else SHIFT
     shares = [_relative_error(end, "peak_pressure")]
     numbers, curves = [], []
     for name in (PRESSURE, SHEAR):
@@ -429,7 +432,7 @@ def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -
             continue
         field = of_run[name]
         if name == SHEAR:
-            shares += [_relative_error(end, load) for load in (SHIFT, LOAD)]
+            shares += [_relative_error(end, of) for of in (moved, LOAD)]
         if field is None:
             raise NothingToCompare("the run has no shear; leave the column out or add friction")
         places, along = surface.profile_line.places, surface.along(field)

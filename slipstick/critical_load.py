@@ -327,10 +327,7 @@ class LoadFactorSearch:
 
     def _state(self, result: Any, number: int, stated: Any = None) -> LoadedBodies:
         """Return the loaded bodies with all layers: solvers merge those of equal constants."""
-        state = state_of_result(result, number, stated)
-        scene = self.solver.scene
-        upper = Body(material=scene.indenter.material, layers=scene.indenter.layers)
-        return replace(state, body=scene.body, indenter=upper)
+        return state_of_result(result, number, stated).with_bodies_of(self.solver.scene)
 
     def _error_of_factor(self, key: Key, x: float, factor: float, slope: float) -> StatedError:
         """Convert the error of the stress at a root to the error of the load factor.

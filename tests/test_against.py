@@ -14,6 +14,7 @@ from command import outcome, rows, succeeded
 from contact_results.files.stored_run import load
 from slipstick.against import ComparedNumber, comparison
 from verification.closed_forms.hertz import PointContact, contact_modulus
+from verification.closed_forms.line_contact import CylinderContact
 
 SCENE = """
 [indenter]
@@ -174,6 +175,40 @@ def test_the_gap_to_a_measured_force_is_a_mean_over_one_cycle(place: Path) -> No
 )
 def test_a_table_that_cannot_be_compared_is_refused(place: Path, columns, message) -> None:
     assert message in refusal(place, table(place / "bad.csv", **columns), "run")
+
+
+LINE = """
+[indenter]
+shape = "cylinder"
+radius = "18 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN/mm"
+[[loading]]
+tangential_force = ["50 N/mm", 0]
+[semi_analytical]
+cells = 64
+"""
+
+
+def test_the_shear_of_a_line_contact_has_an_error_without_a_reference_length(
+    tmp_path: Path,
+) -> None:
+    """Its shift is unknown, and its shear in the middle, µp₀(1 - c/a), is within the error."""
+    (tmp_path / "line.toml").write_text(LINE, encoding="utf-8")
+    ended = outcome("run", "line.toml", "-o", "run", "--figures", "none", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    run = load(tmp_path / "run")
+    pressed = CylinderContact(1e6, 18e-3, 210e9 / 0.91 / 2, 1.0)
+    exact = 0.1 * pressed.peak_pressure * (1 - np.sqrt(0.5))
+    found = comparison({"x": np.zeros(1), "shear": np.full(1, exact)}, run).numbers[0]
+    assert found.name == "largest shear"
+    assert found.error is not None
+    assert found.gap < found.error < 0.1 * exact
 
 
 def test_a_profile_with_several_load_steps_is_compared_step_by_step(place: Path) -> None:

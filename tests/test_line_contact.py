@@ -5,15 +5,22 @@ from typing import Any
 import numpy as np
 import pytest
 
+import fem_reference
 import slipstick
-from contact_scene import Scene, SceneError, SurfaceDiscretisation
+from contact_results.stress.below_contact import body_response
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.stress_maxima import extremes
+from contact_results.surface import Rings, surface_on
+from contact_scene import FiniteElementDiscretisation, Scene, SceneError, SurfaceDiscretisation
 from contact_scene.solver_errors import UnsupportedScene
+from fem_reference import Method
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.line import SCALARS, StripCoefficients
 from semi_analytical.solve import solve_discretised
 from semi_analytical.stress.strips import RESPONSES, strip_responses
+from verification.closed_forms.line_contact import CylinderContact, PushedCylinder
 
 STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
 MODULUS = 210e9 / (1 - 0.3**2) / 2
@@ -183,10 +190,9 @@ def test_a_load_per_length_is_refused_on_a_ball() -> None:
         Scene.model_validate(document({"normal_force": "100 N/mm"}, indenter=ball))
 
 
-@pytest.mark.parametrize("solver", ["radial", "fem"])
-def test_axisymmetric_solvers_refuse_a_cylinder(solver: str) -> None:
+def test_the_radial_solver_refuses_a_cylinder() -> None:
     with pytest.raises(UnsupportedScene, match="not axisymmetric"):
-        slipstick.solve(Scene.model_validate(document()), solver)
+        slipstick.solve(Scene.model_validate(document()), "radial")
 
 
 def test_a_contact_needs_a_distant_reference() -> None:
@@ -229,3 +235,110 @@ def test_tractions_and_strain_are_continuous_at_an_interface(name: str) -> None:
             strains.append(((1 - nu) * xx - nu * zz) / (2 * G))
         size = np.max(np.abs(strains))
         np.testing.assert_allclose(*strains, rtol=0, atol=1e-11 * size)
+
+
+# ---- Plane-strain elements
+
+PUSH = 0.5 * FRICTION * FORCE
+PUSHED = PushedCylinder(CylinderContact(FORCE, RADIUS, MODULUS, REFERENCE), FRICTION, PUSH)
+PRESS_AND_PUSH: tuple[dict[str, Any], ...] = (
+    {"normal_force": FORCE},
+    {"tangential_force": [PUSH, 0]},
+)
+
+
+def solved_on_elements(
+    *loading: dict[str, Any], method: Method = Method.COMPLEMENTARITY, **changes: Any
+) -> Any:
+    scene = Scene.model_validate(document(*loading, **changes))
+    return fem_reference.solve(scene, FiniteElementDiscretisation(elements_per_radius=16), method)
+
+
+@pytest.mark.parametrize("method", Method)
+def test_elements_in_plane_strain_have_the_contact_of_a_pushed_cylinder(method: Method) -> None:
+    pressed, pushed = solved_on_elements(*PRESS_AND_PUSH, method=method).steps
+    part = 0.1 / 16  # a tenth of an element
+    assert pressed.peak_pressure == pytest.approx(PEAK, rel=2e-3)
+    assert pressed.contact_radius == pytest.approx(HALF_WIDTH, rel=part)
+    assert pressed.contact_area == 2 * pressed.contact_radius
+    assert pressed.approach == pytest.approx(PUSHED.pressed.approach, rel=5e-4)
+    assert pushed.stick_radius == pytest.approx(PUSHED.stick_radius, rel=part)
+    assert pushed.tangential_shift[0] == pytest.approx(PUSHED.shift, rel=1e-3)
+    assert pushed.dissipated_energy == pytest.approx(PUSHED.dissipated_energy, rel=3 * part)
+
+
+def test_motions_on_elements_need_a_reference_length() -> None:
+    far, none = (
+        solved_on_elements(*PRESS_AND_PUSH, indenter={"reference_length": L}) for L in (1.0, None)
+    )
+    near, end = solved_on_elements(*PRESS_AND_PUSH).steps[1], none.steps[1]
+    size = 1e-9 * PEAK
+    for other in (far.steps[1], end):
+        np.testing.assert_allclose(other.pressure, near.pressure, rtol=0, atol=size)
+        np.testing.assert_allclose(other.shear_along_load, near.shear_along_load, atol=size)
+    rise = 2 * np.log(1.0 / REFERENCE) / (np.pi * MODULUS)
+    moved = far.steps[1].approach - near.approach
+    assert moved == pytest.approx(FORCE * rise, rel=1e-9)
+    slid = far.steps[1].tangential_shift[0] - near.tangential_shift[0]
+    assert slid == pytest.approx(PUSH * rise, rel=1e-9)
+    unknown = (end.approach, end.tangential_shift, end.elastic_energy, end.input_work)
+    assert unknown == (None, None, None, None)
+
+
+def test_the_stress_below_elements_is_that_below_strips() -> None:
+    """Von Mises stress by closed forms, and tension behind the pushed contact."""
+    found = [
+        extremes(body_response(state_of_result(result, 2)).stress())
+        for result in (solved_on_elements(*PRESS_AND_PUSH), solved(*PRESS_AND_PUSH, cells=512))
+    ]
+    elements, strips = (
+        {one.measure: one.value for one in each if one.region == "body"} for each in found
+    )
+    assert elements["von_mises"] == pytest.approx(strips["von_mises"], rel=5e-3)
+    assert elements["max_principal"] == pytest.approx(strips["max_principal"], rel=0.2)
+
+
+OTHER = {"young_modulus": 70e9, "poisson_ratio": 0.3}
+SLANTED = np.stack([x := np.linspace(-2e-3, 2e-3, 101), x**2 / (2 * RADIUS) + 1e-4 * x**3])
+REFUSED_ON_ELEMENTS: dict[str, tuple[dict[str, Any], str]] = {
+    "unlike bodies": ({"body": {"material": OTHER}}, "unlike bodies have friction"),
+    "bulk strain": (
+        {"loading": [{"normal_force": FORCE, "bulk_strain": [1e-4, 0, 0]}]},
+        "bulk strain",
+    ),
+    "push along": (
+        {"loading": [{"normal_force": FORCE}, {"tangential_force": [0, PUSH]}]},
+        "pushes along the line",
+    ),
+    "tilt": ({"loading": [{"normal_force": FORCE, "moment": [0, 10.0]}]}, "does not tilt"),
+    "slanted profile": (
+        {"indenter": {"shape": "line_profile", "radius": None, "file": SLANTED}},
+        "not symmetric about x = 0",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED_ON_ELEMENTS)
+def test_elements_refuse_what_is_not_symmetric_about_the_line(name: str) -> None:
+    changes, words = REFUSED_ON_ELEMENTS[name]
+    scene = document(**{key: value for key, value in changes.items() if key != "loading"})
+    scene["loading"] = changes.get("loading", scene["loading"])
+    with pytest.raises(UnsupportedScene, match=words):
+        fem_reference.plan(Scene.model_validate(scene))
+
+
+def test_unlike_bodies_are_pressed_without_friction() -> None:
+    scene = Scene.model_validate(document(body={"material": OTHER}, friction=None))
+    assert fem_reference.plan(scene).path is fem_reference.Path.PRESSING
+
+
+def test_lines_of_elements_are_stored_on_both_sides() -> None:
+    """The sum of weight times field is the integral of a field that is linear between the lines."""
+    x = np.array([0.0, 0.3, 0.5, 1.1])
+    lines = Rings(x, None, (1.0, 0.0), polar=False, of_strips=True)
+    assert np.sum(lines.weights) == pytest.approx(2.2)
+    assert np.sum(lines.weights * x) == pytest.approx(1.1**2)
+    read = surface_on(lines.axes, lines.direction)
+    assert isinstance(read, Rings)
+    assert read.of_strips
+    np.testing.assert_array_equal(read.on_both_sides().profile_line.places, [*-x[::-1], *x])

@@ -144,12 +144,12 @@ class MapFrame:
         """
         steps, surface = report.steps, report.surface
         cells: Above
+        if surface.of_strips:
+            return None
         if isinstance(surface, Rings):
             cells = RingsAbove.around_contact(steps, surface)
         else:
             cells = surface
-            if cells.of_strips:
-                return None
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in steps]
         touched = np.any(touching, axis=0)
         shown = (

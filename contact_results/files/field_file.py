@@ -15,6 +15,7 @@ from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
 from contact_results.result_report import ResultReport
 from contact_results.surface import Rings
+from contact_scene.normal_form import with_bodies_of
 from contact_scene.quantities.field_metadata import (
     CONVENTION,
     Kind,
@@ -31,6 +32,7 @@ from contact_scene.quantities.per_length import shown_mark, shown_name
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
     from contact_results.surface import Increment, Surface
+    from contact_scene import Scene
 
 # On these fields, level 1 with shuffled bytes takes at most 10 % more space than level 9.
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
@@ -39,6 +41,7 @@ AXES = {
     "x": ("m", "cell centres along x"),
     "y": ("m", "cell centres along y"),
     "radii": ("m", "radii of the rings"),
+    "distances": ("m", "distances from the middle of a line contact, on both sides"),
     "angles": ("rad", "from the direction of the tangential load"),
 }
 PER_INCREMENT = ("increment",)
@@ -47,7 +50,13 @@ COMPONENT = ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
-def write_fields(report: ResultReport, directory: Path, *, all_fields: bool = False) -> None:
+def write_fields(
+    report: ResultReport,
+    directory: Path,
+    *,
+    all_fields: bool = False,
+    given: Scene | None = None,
+) -> None:
     """Write `result.h5`: scene, coordinates, scalars and surface fields of a result.
 
     Equal results give equal bytes.
@@ -59,8 +68,10 @@ def write_fields(report: ResultReport, directory: Path, *, all_fields: bool = Fa
 
     directory   directory of the run
     all_fields  store the fields of all increments, not only of the last one of each load step
+    given       scene of the user, whose bodies are stored; None for those of the result
     """
     result, surface = report.result, report.surface
+    scene = result.scene if given is None else with_bodies_of(result.scene, given)
     increments: Sequence[Increment] = result.increments
     with _fields_file(directory / FIELDS, "w") as file:
         axes = ", ".join(surface.axes)
@@ -68,7 +79,7 @@ def write_fields(report: ResultReport, directory: Path, *, all_fields: bool = Fa
         file.attrs["convention"] = CONVENTION
         file.attrs["solver"] = result.solver
         file.attrs["tolerance"] = result.tolerance
-        _write_dataset(file, "scene", result.scene.model_dump_json(), Reported("", "scene (JSON)"))
+        _write_dataset(file, "scene", scene.model_dump_json(), Reported("", "scene (JSON)"))
         for key, stored in result.scene.array_files.items():
             mark = Reported("", f"values of the file that the key {key} of the scene names")
             _write_dataset(file.require_group(MAPS), key, stored.values, mark, **COMPRESSION)

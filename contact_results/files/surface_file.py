@@ -28,13 +28,13 @@ Places = NDArray[np.float64]
 def write_surface(surface: Surface, increment: Any, path: Path, convention: str) -> None:
     """Write the surface fields of an increment to a VTU file.
 
-    Fields are constant on cells. On rings, they are linear on a mesh of the disc. Fields that are
-    None are omitted.
+    Fields are constant on cells. On rings, they are linear on a mesh of the disc, in a line contact
+    on a rectangle, 1 m long. Fields that are None are omitted.
 
     path        path of the file
     convention  text about units, axes and signs
     """
-    if isinstance(surface, Rings):
+    if isinstance(surface, Rings) and not surface.of_strips:
         surface, increment = surface.full_circle(increment)
     arrays: dict[str, NDArray[Any]] = {}
     for name, heading in VECTORS.items():
@@ -47,7 +47,10 @@ def write_surface(surface: Surface, increment: Any, path: Path, convention: str)
         if field is not None:
             arrays[heading] = field.ravel()
     if isinstance(surface, Rings):
-        mesh = Mesh(*_disc_mesh(surface), at_points=arrays)
+        if surface.of_strips:  # both sides, at both ends of the lines
+            sides = np.tile([*range(len(surface.radii))[::-1], *range(len(surface.radii))], 2)
+            arrays = {name: values[sides] for name, values in arrays.items()}
+        mesh = Mesh(*_ring_mesh(surface), at_points=arrays)
     else:
         mesh = Mesh(*_cell_mesh(surface), on_cells=arrays)
     write_mesh(mesh, path, convention)
@@ -69,7 +72,13 @@ def _cell_boundaries(centres: Places) -> Places:
     return np.append(centres - half, centres[-1] + half)
 
 
-def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+def _ring_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+    if rings.of_strips:
+        x, ends = np.concatenate([-rings.radii[::-1], rings.radii]), np.array([-0.5, 0.5])
+        first = np.arange(len(x) - 1)
+        strips = np.stack([first, first + 1, first + len(x) + 1, first + len(x)], axis=-1)
+        places = np.stack([np.tile(x, 2), np.repeat(ends, len(x))], axis=-1)
+        return _add_zero_depth(places), ("quad", strips)
     places = np.moveaxis(rings.positions, 0, -1)
     index = np.arange(places[..., 0].size).reshape(places.shape[:2])
     ahead = np.roll(index, -1, axis=1)

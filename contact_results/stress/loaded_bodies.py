@@ -91,7 +91,25 @@ class LoadedBodies:
     @property
     def on_rings(self) -> bool:
         """True if the tractions are given on rings, False if on cells."""
-        return "radii" in self.axes
+        return self.radial in self.axes
+
+    @property
+    def of_strips(self) -> bool:
+        """True if the tractions are those of a line contact on pairs of lines."""
+        return "distances" in self.axes
+
+    @property
+    def radial(self) -> str:
+        """Name of the radii of rings, or of the distances of pairs of lines, among the axes."""
+        return "distances" if self.of_strips else "radii"
+
+    def with_bodies_of(self, scene: Scene) -> LoadedBodies:
+        """Return the tractions on the bodies of a scene: solvers merge layers of equal constants.
+
+        scene  scene of the contact, before its normal form
+        """
+        upper = Body(material=scene.indenter.material, layers=scene.indenter.layers)
+        return replace(self, body=scene.body, indenter=upper)
 
     def loaded_body(self, indenter: bool) -> Body:
         """Return the indenter or the lower body."""

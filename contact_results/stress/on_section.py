@@ -47,17 +47,20 @@ class OnSection(BodyResponse):
         state, asked = self.state, self.state.discretisation
         assert asked is not None
         tractions = SurfaceTractions(
-            radii=state.axes["radii"],
+            radii=state.axes[state.radial],
             angles=state.axes.get("angles"),
             **state.tractions,
             rooted=state.no_root is None,
             edge=beyond_pressure(state.body, state.indenter),
+            plane=state.of_strips,
         )
         # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
         asked = asked.model_copy(update={"contact_radius": None})
         field = subsurface(self.body, tractions, asked, upper=self.indenter)
         radius = tractions.loaded_radius
         section = state.add_bulk_stress(_section_points(field), self.indenter)
+        if state.of_strips:  # the displacement below a line contact is not stated
+            section = replace(section, displacement=np.full_like(section.displacement, np.nan))
         reach = NEAR * radius
         near = section.near(reach)
         assert section.cells is not None
@@ -98,7 +101,7 @@ class OnSection(BodyResponse):
         every  1 to keep the tractions of all rings, 2 to keep those of every second ring
         """
         state, asked = self.state, self.state.discretisation
-        radii = state.axes["radii"]
+        radii = state.axes[state.radial]
         assert asked is not None
         half = max(2, asked.elements_per_radius // 2)
         # An additional unloaded ring preserves the last ring if their number is even.
@@ -110,7 +113,7 @@ class OnSection(BodyResponse):
             tractions[name] = np.asarray(np.pad(field, pads)[::every])
         coarse = replace(
             state,
-            axes={**state.axes, "radii": np.array(more[::every])},
+            axes={**state.axes, state.radial: np.array(more[::every])},
             tractions=tractions,
             discretisation=asked.model_copy(update={"elements_per_radius": half}),
         )

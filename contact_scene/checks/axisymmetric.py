@@ -48,7 +48,7 @@ class AxisymmetricLoads:
     frictional: bool
 
     @classmethod
-    def of(cls, scene: Scene, contrast: float) -> AxisymmetricLoads:
+    def of(cls, scene: Scene, contrast: float, *, lines: bool = False) -> AxisymmetricLoads:
         """Collect the loads of a scene.
 
         Raise UnsupportedScene if no solver of bodies of revolution supports its shape, moduli,
@@ -56,9 +56,11 @@ class AxisymmetricLoads:
 
         scene     contact problem with its load history
         contrast  largest ratio of shear moduli within a body that the solver carries
+        lines     True if the solver takes line contacts
         """
         refuse_equator(scene)
-        refuse_shape(scene)
+        if not (lines and scene.indenter.is_line):
+            refuse_shape(scene)
         refuse_contrast(scene, contrast, f", and this solver carries a ratio up to {contrast:.0e}")
         friction, ramps = scene.friction is not None, tuple(scene.load_path())
         loaded = any(any(ramp.tangential.end) for ramp in ramps)

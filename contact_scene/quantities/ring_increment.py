@@ -1,4 +1,4 @@
-"""Results of one increment for bodies of revolution, with fields on concentric rings."""
+"""Results of one increment with fields on rings: bodies of revolution, and symmetric strips."""
 
 from dataclasses import dataclass, field, replace
 from math import pi
@@ -27,10 +27,14 @@ class RingIncrement(ReportedIncrement):
     start of the history: the displacement of the lower body's particles relative to the indenter's
     while they are in contact.
 
+    In a line contact a ring is a pair of lines at equal distances from the middle of the contact;
+    the fields are even in x.
+
     radii     radii of the rings [length]
     angles    angles from the direction of the tangential load [radian]: from 0 to π for fields that
               are symmetric about that direction, else below 2π; None for functions of the radius
     in_stick  rings in contact that do not slip in this increment
+    strips    True for a line contact, whose forces, areas and energies are per unit length
     """
 
     radii: Field
@@ -40,7 +44,7 @@ class RingIncrement(ReportedIncrement):
         Reported("m", "Distance of the deformed surfaces, inf outside of the indenter.", F),
     ]
     status: ContactStatus = ContactStatus.FRICTIONLESS
-    approach: float
+    approach: float | None
     contact_area: float = field(init=False)
     stick_area: float | None = field(init=False)
     tangential_force: Pair | None = None
@@ -65,12 +69,20 @@ class RingIncrement(ReportedIncrement):
         Field | None, Reported("m", "Slip along the load, uniform on a ring.", F)
     ] = None
     in_stick: Annotated[Mask | None, Reported("", "True for rings of the stick zone.", F)] = None
+    strips: bool = False
 
     def __post_init__(self) -> None:
-        stuck = None if self.stick_radius is None else pi * self.stick_radius**2
-        object.__setattr__(self, "contact_area", pi * self.contact_radius**2)
-        object.__setattr__(self, "stick_area", stuck)
+        for name, radius in (("contact", self.contact_radius), ("stick", self.stick_radius)):
+            area = None
+            if radius is not None:
+                area = 2 * radius if self.strips else pi * radius**2
+            object.__setattr__(self, f"{name}_area", area)
         super().__post_init__()
+
+    @property
+    def is_line(self) -> bool:
+        """True for a line contact, with fields on strips."""
+        return self.strips
 
     @property
     def covers_circle(self) -> bool:

@@ -102,9 +102,12 @@ class AngularGrid:
         return np.stack(families[: len(self.families)])
 
 
-def axisymmetric_grid() -> AngularGrid:
-    """Create the grid with one point per ring, for fields that do not depend on the angle θ."""
-    return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.ones((1, 1)))
+def axisymmetric_grid(around: float = 2 * np.pi) -> AngularGrid:
+    """Create the grid with one point per ring, for fields that do not depend on the angle θ.
+
+    around  angle that the point represents; 2 in plane strain, for both halves of the surface
+    """
+    return AngularGrid(np.zeros(1), np.full(1, around), np.ones((1, 1)), np.ones((1, 1)))
 
 
 def end_grid(highest: int) -> AngularGrid:

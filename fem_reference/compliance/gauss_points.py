@@ -35,28 +35,29 @@ class GaussPoints(TractionBasis):
         return self.weights * function(self.radii)
 
 
-def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
+def gauss_points(nodes: Field, reach: float = np.inf, power: int = 1) -> GaussPoints:
     """Create the basis of tractions at the Gauss points of all surface edges of elements.
 
     Each edge in the contact zone has POINTS_PER_EDGE points. Used for the penalty law.
 
     nodes  radii of corner and midside nodes, alternating; first and last are corners (m,) [length]
     reach  outer radius of the tractions, rounded down to a corner [length]
+    power  power of r in the integrals: 1, and 0 in plane strain
     """
     places, parts = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)
     quadratic = np.array([places * (places - 1) / 2, 1 - places**2, places * (places + 1) / 2])
     edges = corners_under(nodes, reach) - 1
     half = (nodes[2::2] - nodes[:-1:2])[:edges, None] / 2
     radii = (nodes[1::2][:edges, None] + half * places).ravel()
-    weights = (half * parts).ravel() * radii
+    weights = (half * parts).ravel() * radii**power
     products = np.zeros((len(nodes), len(radii)))
     for edge in range(edges):
         at = slice(edge * POINTS_PER_EDGE, (edge + 1) * POINTS_PER_EDGE)
         products[2 * edge : 2 * edge + 3, at] = quadratic * weights[at]
-    return GaussPoints(radii, products, weights, weights * radii)
+    return GaussPoints(radii, products, weights, weights * radii, power)
 
 
-def loading_part(radii: Field, tractions: Field) -> Field:
+def loading_part(radii: Field, tractions: Field, power: int = 1) -> Field:
     """Return the part of tractions at Gauss points that loads the surface nodes (n,).
 
     Three points of an edge load two nodes, as one corner belongs to the adjacent edge. Tractions
@@ -65,11 +66,12 @@ def loading_part(radii: Field, tractions: Field) -> Field:
 
     radii      radii of the Gauss points of adjacent edges (n,) [length]
     tractions  one component of the tractions at the points (n,)
+    power      power of r in the integrals: 1, and 0 in plane strain
     """
     furthest = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)[0][-1]
     middles = radii[POINTS_PER_EDGE // 2 :: POINTS_PER_EDGE]
     half = (radii[POINTS_PER_EDGE - 1 :: POINTS_PER_EDGE] - middles) / furthest
     nodes = np.append(np.ravel([middles - half, middles], order="F"), middles[-1] + half[-1])
-    basis = gauss_points(nodes)
+    basis = gauss_points(nodes, power=power)
     traces = (basis.products / basis.weights).T
     return traces @ np.linalg.solve(basis.products @ traces, basis.products @ tractions)

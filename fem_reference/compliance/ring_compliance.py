@@ -20,7 +20,7 @@ from fem_reference.compliance.ring_edge import (
     contact_edge,
 )
 from fem_reference.elasticity.hat_functions import TractionBasis
-from fem_reference.elasticity.motion import PRESSING, TORSION
+from fem_reference.elasticity.motion import TORSION
 from fem_reference.elasticity.motion import motion as motion_of
 from fem_reference.loads import ALONG, TWIST
 from fem_reference.model import ContactModel
@@ -31,9 +31,10 @@ from fem_reference.plan import TWISTED, UNCOUPLED, Path
 class RingCompliance:
     """Displacement amplitudes of surface rings per traction amplitude, for all angular harmonics.
 
-    A ring is a circle around the axis on the surface, through a corner node or a Gauss point.
-    Tractions are sums of functions φ(r), one for each ring. Displacements and gaps are integrated
-    with the same functions φ.
+    A ring is a circle around the axis on the surface, through a corner node or a Gauss point. In
+    plane strain it is a pair of lines at equal distances from the middle. Tractions are sums of
+    functions φ(r), one for each ring. Displacements and gaps are integrated with the same functions
+    φ.
 
     radii      ascending radii of the rings (rings,) [length]
     areas      ∫ φ r dr (rings,) [length^2]
@@ -50,6 +51,7 @@ class RingCompliance:
     reach      outer end of the last element [length]
     edge       rule that determines the radius of the contact edge between rings
     beta       Dundurs' constant of the outermost materials [1]
+    plane      True in plane strain: integrals over dr in place of r dr
     """
 
     radii: Vector
@@ -62,6 +64,7 @@ class RingCompliance:
     reach: float
     edge: Edge
     beta: float
+    plane: bool
 
     def contact_edge(self, pressure: Vector, shear: Vector | None = None) -> float:
         """Compute the radius of the contact edge from the pressure at the rings [length].
@@ -90,7 +93,9 @@ def ring_compliance(
                      through the corner nodes
     """
     nodes = model.radii
-    basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats
+    basis: TractionBasis = (
+        gauss_points(nodes, model.rim, model.power) if at_gauss_points else model.hats
+    )
     rings = len(basis.radii)
     motions, stretch = np.zeros((3, 2, rings)), basis.arms / basis.weights
     harmonics = [np.zeros((3, rings, 3, rings)) for _ in range(highest + 1)]
@@ -98,7 +103,7 @@ def ring_compliance(
         # Without coupling only the normal compliance is required, and that of the one component of
         # shear, if there is one.
         (A,) = harmonics
-        A[Z, :, Z] = basis.compliance(model.compliance(PRESSING).matrix[1, :, 1])
+        A[Z, :, Z] = basis.compliance(model.compliance(model.pressing).matrix[1, :, 1])
     else:
         uncoupled = path is Path.WHOLE_CIRCLE and not coupling(model.scene)[0]
         for n, A in enumerate(harmonics):
@@ -117,7 +122,7 @@ def ring_compliance(
     edge: Edge
     if isinstance(basis, GaussPoints):
         edge, reach = (
-            GaussEdge(float(nodes[2] - nodes[0])),
+            GaussEdge(float(nodes[2] - nodes[0]), power=model.power),
             float(nodes[2 * (rings // POINTS_PER_EDGE)]),
         )
     else:
@@ -135,4 +140,5 @@ def ring_compliance(
         reach,
         edge,
         outermost_beta(model.scene),
+        model.plane,
     )

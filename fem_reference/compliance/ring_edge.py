@@ -180,10 +180,12 @@ class GaussEdge:
     element         length of an element edge on the surface [length]
     whole_elements  True if the rings are all points of adjacent edges, so that tractions that load
                     no node can be removed
+    power           power of r in the integrals of the tractions: 1, and 0 in plane strain
     """
 
     element: float
     whole_elements: bool = True
+    power: int = 1
 
     @property
     def stick_rule(self) -> "GaussEdge":
@@ -218,7 +220,7 @@ class GaussEdge:
         near = slice(POINTS_PER_EDGE * max(0, at - SMOOTHED), POINTS_PER_EDGE * (at + SMOOTHED + 1))
         radii, values = radii[near], values[near]
         if self.whole_elements:
-            values = loading_part(radii, values)
+            values = loading_part(radii, values, self.power)
         behind = step * (edge - radii) / self.element
         fitted = (behind > FITTED[0]) & (behind < FITTED[1]) & (values > 0)
         if np.count_nonzero(fitted) < FEWEST:
@@ -259,8 +261,24 @@ def contact_edge(
     return edge.radius(radii, pressure, last, coupled=at_edge)
 
 
+def area_within(radius: float, *, plane: bool) -> float:
+    """Return the area of a circle, or twice its radius for a strip of a line contact.
+
+    radius  radius, or half width of the strip [length]
+    plane   True in plane strain, in which areas are per unit length
+    """
+    return 2 * radius if plane else pi * radius**2
+
+
 def stick_area(
-    radii: Field, bound: Field, shear: Field, slips: Mask, contact_radius: float, edge: Edge
+    radii: Field,
+    bound: Field,
+    shear: Field,
+    slips: Mask,
+    contact_radius: float,
+    edge: Edge,
+    *,
+    plane: bool = False,
 ) -> float:
     """Compute the area of the stick zone, whose edges are resolved between the rings [length^2].
 
@@ -272,6 +290,7 @@ def stick_area(
     slips           True for rings that are in contact and slip (n,)
     contact_radius  radius of the contact edge [length]
     edge            rule for the radius of an edge between two rings
+    plane           True in plane strain, in which the area is a width [length]
     """
     if not np.any(bound > 0):
         return 0.0
@@ -303,5 +322,6 @@ def stick_area(
         inner = radius_between(first, first - 1) if first else 0.0
         outer = radius_between(after - 1, after) if after <= last else outermost()
         # The contact edge of a single stuck ring at the end may lie within the edge of its stick.
-        area += pi * max(0.0, outer**2 - inner**2)
+        rest = area_within(outer, plane=plane) - area_within(inner, plane=plane)
+        area += max(0.0, rest)
     return area

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.stepping.load_stepping import IncrementPosition
-from fem_reference.compliance.ring_edge import stick_area
+from fem_reference.compliance.ring_edge import area_within, stick_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.fields import Increment
@@ -50,7 +50,7 @@ def report_increment(
         gap=_result_field(contact, gap),
         normal_force=state.normal_force,
         approach=state.approach,
-        contact_radius=sqrt(_contact_area(contact, edges) / pi),
+        contact_radius=_radius_of(contact, _contact_area(contact, edges)),
         peak_pressure=float(np.max(p)),
         elastic_energy=_elastic_energy(contact, state),
         residuals=state.residuals,
@@ -59,6 +59,7 @@ def report_increment(
         overlap=state.overlap if contact.penalty else None,
         augmentations=state.augmentations if contact.penalty else None,
         path=state.algorithm,
+        strips=rings.plane,
     )
     return (
         pressed if rings.path is Path.PRESSING else _add_shear(pressed, contact, state, plan, edges)
@@ -109,7 +110,7 @@ def _add_shear(
         pressed,
         status=state.status,
         in_stick=_result_field(contact, state.in_stick),
-        stick_radius=sqrt(_stick_area(contact, state, edges) / pi),
+        stick_radius=_radius_of(contact, _stick_area(contact, state, edges)),
         dissipated_energy=state.dissipated_energy,
         **fields,
     )
@@ -171,12 +172,20 @@ def _contact_edges(contact: PointContact, state: PointState) -> Field:
 def _contact_area(contact: PointContact, edges: Field) -> float:
     """Compute the contact area at the end of an increment, ½∫a² dθ [length^2].
 
-    a(θ) is the radius of the contact edge at the angle θ around the axis.
+    a(θ) is the radius of the contact edge at the angle θ around the axis. In plane strain the area
+    is the width 2a of the contact.
 
     contact  contact problem, which defines the angles and their integration weights
     edges    a on every ray, the set of points at one angle (angles,) [length]
     """
-    return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
+    parts = [area_within(edge, plane=contact.rings.plane) for edge in edges]
+    weights = contact.compliance.grid.weights
+    return float(np.sum(weights * parts) / np.sum(weights))
+
+
+def _radius_of(contact: PointContact, area: float) -> float:
+    """Return the radius of the circle of an area, or half of the width of a strip [length]."""
+    return area / 2 if contact.rings.plane else sqrt(area / pi)
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
@@ -206,5 +215,6 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
         edges,
         strict=True,
     )
-    areas = [stick_area(rings.radii, *ray, rings.edge) for ray in rays]
-    return min(float(np.sum(compliance.grid.weights * areas) / (2 * pi)), contact_area)
+    areas = [stick_area(rings.radii, *ray, rings.edge, plane=rings.plane) for ray in rays]
+    weights = compliance.grid.weights
+    return min(float(np.sum(weights * areas) / np.sum(weights)), contact_area)

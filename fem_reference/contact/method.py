@@ -136,7 +136,8 @@ class ContactMethod:
 
         Used while the tractions do not depend on the angle.
         """
-        return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
+        grid = axisymmetric_grid(self.model.around)
+        return point_contact(self.model, self.plan.path, grid, self.penalty)
 
     @cached_property
     def _angular_contact(self) -> PointContact:

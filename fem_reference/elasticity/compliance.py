@@ -30,7 +30,8 @@ class NodalCompliance:
 
     The nodes are those of biquadratic elements (Q2). A generalised force is the integral of psi_i t
     r dr, with t the amplitude of the traction and psi_i the quadratic trace function of the node.
-    It does not contain the factor 2 pi or pi of the angle.
+    It does not contain the factor 2 pi or pi of the angle. In plane strain it is the integral of
+    psi_i t dr on one half of the surface.
 
     motion          harmonic n and components: (r, z) for n = 0, (theta) in torsion, else (r, theta,
                     z)
@@ -105,11 +106,11 @@ def _cache_key(section: SectionMesh, motion: Motion) -> str:
     """
     outline = section.outline
     materials = [(m.young_modulus, m.poisson_ratio) for m in outline.materials]
-    edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)
+    sizes = (outline.zone, outline.box, outline.interfaces, outline.rigid_base, outline.plane)
     far_field = getattr(motion.far_field, "__name__", None)
     moving = (motion.harmonic, motion.components, motion.on_axis, far_field)
     sources = sources_digest(PACKAGE, FOLDERS, LIBRARIES)
-    described = (sources, moving, materials, edges)
+    described = (sources, moving, materials, sizes)
     identity = hashlib.sha256(repr(described).encode())
     for array in (section.points, section.quads.astype(np.int64)):
         identity.update(np.ascontiguousarray(array).tobytes())

@@ -138,7 +138,7 @@ def _assemble_stiffness(
     basis      finite-element basis of one displacement component
     numbering  degree of freedom and factor of every nodal displacement
     """
-    stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
+    stiffness = element_stiffness(basis, section, motion.in_strains, motion.components)
     dofs, factor = _element_unknowns(basis, numbering)
     stiffness *= factor[:, :, None] * factor[:, None]
     both = (dofs[:, :, None], dofs[:, None])
@@ -163,7 +163,7 @@ def _add_pressure_unknowns(
     numbering  degrees of freedom of displacements and pressures
     """
     mixed, first = dilatation(section).mixed, numbering.dofs.size
-    volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
+    volume = volume_strain(basis, motion.in_strains, motion.components)[mixed]
     dofs, factor = (one[mixed, :, None] for one in _element_unknowns(basis, numbering))
     rows = np.broadcast_to((numbering.pressure - first)[:, None], volume.shape).ravel()
     columns = np.broadcast_to(dofs, volume.shape).ravel()

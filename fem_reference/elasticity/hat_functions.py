@@ -25,13 +25,15 @@ SAME = 1e-9
 def product(hat: Any, trace: Any, w: Any) -> Any:
     """Return the integrand φ ψ r of the integral over the radius r that scikit-fem assembles.
 
+    In plane strain the integrand is φ ψ.
+
     φ is a hat function of the tractions and ψ a quadratic trace function of the displacements. The
     integrals convert tractions at rings to forces on surface nodes.
 
     hat, trace  values of φ and ψ at the quadrature points
-    w           scikit-fem data, with r as the first coordinate `w.x[0]`
+    w           scikit-fem data, with r as the first coordinate `w.x[0]` and the power of r
     """
-    return hat * trace * w.x[0]
+    return hat * trace * w.x[0] ** w.power
 
 
 @dataclass(frozen=True)
@@ -39,18 +41,21 @@ class TractionBasis(ABC):
     """Basis functions φ_j of the radius whose sums represent the surface tractions, with integrals.
 
     There is one function for each of n rings, circles around the axis on the surface. ψ_i are the
-    quadratic trace functions of the m surface nodes of the displacement.
+    quadratic trace functions of the m surface nodes of the displacement. In plane strain integrals
+    are over dr, in place of r dr, on one half of the surface.
 
     radii     radii of the rings, whose tractions are the unknowns (n,) [length]
     products  ∫ ψ_i φ_j r dr (m, n) [length^2]
     weights   ∫ φ_j r dr (n,) [length^2]
     arms      ∫ φ_j r² dr (n,) [length^3]
+    power     power of r in the integrals: 1, and 0 in plane strain
     """
 
     radii: Field
     products: Matrix
     weights: Field
     arms: Field
+    power: int = 1
 
     def compliance(self, nodal: Matrix) -> Matrix:
         """Convert the compliance of the surface nodes to the compliance of the rings (n, n).
@@ -88,7 +93,7 @@ class Hats(TractionBasis):
 
         function  f, a function of an array of radii
         """
-        return _integrate_with_hats(_hat_basis(self.radii), function)
+        return _integrate_with_hats(_hat_basis(self.radii), function, self.power)
 
 
 def corners_under(nodes: Field, reach: float) -> int:
@@ -102,22 +107,24 @@ def corners_under(nodes: Field, reach: float) -> int:
     return int(np.count_nonzero(nodes[::2] <= reach * (1 + SAME)))
 
 
-def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
+def hats_on(nodes: Field, reach: float = np.inf, power: int = 1) -> Hats:
     """Create the hat functions on surface nodes, from the axis to the corner node at a radius.
 
     The last corner has half a hat function, because no traction acts beyond it.
 
     nodes  radii of corner and midside nodes, alternating (m,) [length]
     reach  outer radius of the tractions; infinite for all nodes [length]
+    power  power of r in the integrals: 1, and 0 in plane strain
     """
     radii = nodes[::2][: corners_under(nodes, reach)]
     hats = _hat_basis(radii)
     traces = hats.with_element(ElementLineP2())
     outwards = np.argsort(traces.doflocs[0])
     products = np.zeros((len(nodes), len(radii)))
-    products[: traces.N] = product.assemble(hats, traces).toarray()[outwards]
+    products[: traces.N] = product.assemble(hats, traces, power=power).toarray()[outwards]
     # The sum of all quadratic trace functions is 1, so that a column sum is the integral of a hat.
-    return Hats(radii, products, products.sum(axis=0), _integrate_with_hats(hats, lambda r: r))
+    arms = _integrate_with_hats(hats, lambda r: r, power)
+    return Hats(radii, products, products.sum(axis=0), arms, power)
 
 
 def _hat_basis(radii: Field) -> Basis:
@@ -131,11 +138,12 @@ def _hat_basis(radii: Field) -> Basis:
     return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
-def _integrate_with_hats(hats: Basis, function: Callable[[Field], Field]) -> Field:
+def _integrate_with_hats(hats: Basis, function: Callable[[Field], Field], power: int) -> Field:
     """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,).
 
     hats      scikit-fem basis of the hat functions over the radius
     function  f, a function of an array of radii
+    power     power of r in the integrals: 1, and 0 in plane strain
     """
-    load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
+    load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0] ** power)
     return np.asarray(load.assemble(hats))

@@ -26,6 +26,9 @@ class Motion:
     displacement of a half-space by the resultant of the tractions is prescribed, or zero if there
     is no resultant.
 
+    In plane strain u_r and u_z are along and normal to the surface. The harmonic is 0 for a field
+    that is mirror symmetric about x = 0, and 1 for the opposite sign on the other side.
+
     harmonic    n
     components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     on_axis     factor of each component in the single displacement of a node at r = 0; 0 if the
@@ -33,6 +36,7 @@ class Motion:
     resultant   factor of the nodal forces of each component in the resultant of the tractions
     lever       power of r in the resultant: 1 for a torque, 0 for a force
     far_field   displacement of a half-space for a unit resultant; None for zero displacement
+    plane       True in plane strain
     """
 
     harmonic: int
@@ -41,6 +45,12 @@ class Motion:
     resultant: tuple[float, ...]
     lever: int
     far_field: FarField | None
+    plane: bool = False
+
+    @property
+    def in_strains(self) -> int:
+        """Number n in the strains: the harmonic, and 0 in plane strain."""
+        return 0 if self.plane else self.harmonic
 
     @property
     def changes_volume(self) -> bool:
@@ -110,11 +120,60 @@ def point_torque(r: Field, z: Field, material: IsotropicMaterial) -> Field:
     return np.stack([zero, u_theta, zero]) / (4.0 * np.pi * material.shear_modulus)
 
 
+def line_normal(x: Field, z: Field, material: IsotropicMaterial) -> Field:
+    """Compute the displacement of a half-space by a unit normal force per length on the line x = 0.
+
+    Return the components along x, along the line and along z (3, ...) at the points (x, z)
+    [length^2/force]. The surface does not move at the unit distance. Flamant 1892; Johnson, Contact
+    Mechanics (1985), section 2.3, integrated.
+
+    x, z      distance from the line along the surface, and depth (...) [length]
+    material  elastic constants of the half-space
+    """
+    G, nu = material.shear_modulus, material.poisson_ratio
+    R = np.hypot(x, z)
+    u_x = x * z / R**2 - (1.0 - 2.0 * nu) * np.arctan2(x, z)
+    u_z = -2.0 * (1.0 - nu) * np.log(R) + z * z / R**2
+    return np.stack([u_x, np.zeros_like(R), u_z]) / (2.0 * np.pi * G)
+
+
+def line_tangential(x: Field, z: Field, material: IsotropicMaterial) -> Field:
+    """Compute the displacement of a half-space by a unit tangential force per length along x.
+
+    The force acts on the line x = 0. Return the components along x, along the line and along z
+    (3, ...) at the points (x, z) [length^2/force]. The surface does not move along x at the unit
+    distance. Johnson, Contact Mechanics (1985), section 2.4, integrated.
+
+    x, z      distance from the line along the surface, and depth (...) [length]
+    material  elastic constants of the half-space
+    """
+    G, nu = material.shear_modulus, material.poisson_ratio
+    R = np.hypot(x, z)
+    u_x = -2.0 * (1.0 - nu) * np.log(R) - z * z / R**2
+    u_z = x * z / R**2 + (1.0 - 2.0 * nu) * np.arctan2(x, z)
+    return np.stack([u_x, np.zeros_like(R), u_z]) / (2.0 * np.pi * G)
+
+
+def line_reference(material: IsotropicMaterial) -> float:
+    """Return the displacement 2(1 - ν²)/πE per unit of ln L by a unit line force [length^2/force].
+
+    The displacements of `line_normal` and `line_tangential` grow by it if the distance at which the
+    surface does not move is L in place of 1.
+
+    material  elastic constants of the half-space
+    """
+    return 2.0 / (np.pi * material.plane_strain_modulus)
+
+
 PRESSING = Motion(0, (0, 2), (0.0, 1.0), (0.0, 2.0 * np.pi), 0, boussinesq)
 TORSION = Motion(0, (1,), (0.0,), (2.0 * np.pi,), 1, point_torque)
 # T = integral of (q_r cos^2 - q_theta sin^2) over the surface; a shift along theta = 0 has
 # u_r = 1 and u_theta = -1 everywhere, on the axis as well.
 SHEARING = Motion(1, (0, 1, 2), (1.0, -1.0, 0.0), (np.pi, -np.pi, 0.0), 0, cerruti)
+
+# One half of the section carries half of the force.
+LINE_PRESSING = Motion(0, (0, 2), (0.0, 1.0), (0.0, 2.0), 0, line_normal, plane=True)
+LINE_SHEARING = Motion(1, (0, 2), (1.0, 0.0), (2.0, 0.0), 0, line_tangential, plane=True)
 
 
 def motion(harmonic: int) -> Motion:

@@ -47,7 +47,12 @@ class GmshMissing(SolverError):
 
 
 def gmsh_section_mesh(
-    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+    body: Body,
+    elements_per_radius: int,
+    box: float | None = None,
+    zone: float = CONTACT_ZONE,
+    *,
+    plane: bool = False,
 ) -> SectionMesh:
     """Create the mesh of the meridional section of a body by gmsh.
 
@@ -58,10 +63,11 @@ def gmsh_section_mesh(
             number of elements per contact radius on the surface of the contact zone
     box     outer radius and depth of the section, in contact radii; None for a sufficient value
     zone    least outer radius of the contact zone, in contact radii
+    plane   True for a body in plane strain
     raises  GmshMissing if gmsh or a library that it requires is not installed; SolverError if gmsh
             does not fill the section with quadrilaterals; errors of `section_outline`
     """
-    outline = section_outline(body, elements_per_radius, box, zone)
+    outline = section_outline(body, elements_per_radius, box, zone, plane=plane)
     with _gmsh_model() as gmsh:
         _draw(gmsh.model.geo, outline)
         gmsh.model.geo.synchronize()

@@ -139,7 +139,12 @@ class SectionMesh:
 
 
 def section_mesh(
-    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+    body: Body,
+    elements_per_radius: int,
+    box: float | None = None,
+    zone: float = CONTACT_ZONE,
+    *,
+    plane: bool = False,
 ) -> SectionMesh:
     """Create the graded mesh of rectangles for the meridional section of a body.
 
@@ -151,9 +156,10 @@ def section_mesh(
             number of elements per contact radius in the contact zone
     box     outer radius and depth of the section, in contact radii; None for a sufficient value
     zone    least outer radius of the contact zone, in contact radii
+    plane   True for a body in plane strain
     raises  errors of `section_outline`, such as UnsupportedScene for layers that are too thin
     """
-    outline = section_outline(body, elements_per_radius, box, zone)
+    outline = section_outline(body, elements_per_radius, box, zone, plane=plane)
     h = outline.size
     uniform = np.arange(round(outline.zone / h) + 1) * h
     r = np.concatenate([uniform, graded_lines(uniform[-1], outline.box, uniform[-1], h)[1:]])

@@ -49,6 +49,8 @@ class SectionOutline:
     materials   material above each of these depths; moduli in one common unit
     rigid_base  True if the base is the surface of a rigid substrate, False if the base is a cut
                 through an elastic substrate
+    plane       True for one half of a body in plane strain, which is long across the section and
+                symmetric about r = 0; False for a body of revolution
     """
 
     size: float
@@ -57,6 +59,12 @@ class SectionOutline:
     interfaces: tuple[float, ...]
     materials: tuple[IsotropicMaterial, ...]
     rigid_base: bool
+    plane: bool = False
+
+    @property
+    def power(self) -> int:
+        """Power of r in the weight of integrals over the section: 0 in plane strain, else 1."""
+        return 0 if self.plane else 1
 
     @property
     def depth(self) -> float:
@@ -73,7 +81,7 @@ class SectionOutline:
 
 
 def section_outline(
-    body: Body, elements_per_radius: int, box: float | None, zone: float
+    body: Body, elements_per_radius: int, box: float | None, zone: float, *, plane: bool = False
 ) -> SectionOutline:
     """Create the outline of the meridional section of a body: outer edges and element sizes.
 
@@ -84,6 +92,7 @@ def section_outline(
             number N of elements per contact radius; elements of the contact zone have the side 1/N
     box     outer radius and depth of the section; None for `sufficient_box`
     zone    least outer radius of the contact zone
+    plane   True for a body in plane strain
     raises  ValueError for fewer than 2 elements per radius, UnsupportedScene for layers that are
             too thin or too thick, SolverError for a box that is too small
     """
@@ -98,7 +107,7 @@ def section_outline(
             f"the layers are {thickness:g} contact radii thick, more than {DEEPEST_LAYERS:g}, so "
             "that the substrate has no effect. Remove it and use the last layer as the body"
         )
-    outer = sufficient_box(body) if box is None else float(box)
+    outer = sufficient_box(body, plane=plane) if box is None else float(box)
     depths = [float(depth) for depth in np.cumsum([x.thickness for x in body.layers])]
     materials = [layer.material for layer in body.layers]
     if isinstance(body.material, IsotropicMaterial):
@@ -116,10 +125,10 @@ def section_outline(
             f"size of its elements ({size:g}). Remove it, or use more elements per radius"
         )
     rigid = not isinstance(body.material, IsotropicMaterial)
-    return SectionOutline(size, zone, outer, tuple(depths), tuple(materials), rigid)
+    return SectionOutline(size, zone, outer, tuple(depths), tuple(materials), rigid, plane)
 
 
-def sufficient_box(body: Body) -> float:
+def sufficient_box(body: Body, *, plane: bool = False) -> float:
     """Estimate the outer radius L that the mesh of a body requires, in units of the contact radius.
 
     The displacement of a half-space of the substrate material is prescribed at this radius, with an
@@ -128,7 +137,11 @@ def sufficient_box(body: Body) -> float:
     about x / L^2, and that of the approach is smaller. Layers that spread the load (x > 1) cause an
     error of 0.06 x^2 / L^2. The limit of the error is 1e-5.
 
-    body  layers and substrate; the unit of length is the contact radius
+    In plane strain the displacement by the layers decays as 1 / L, and so does the relative error:
+    it is about 0.3 x / L for the tangential shift.
+
+    body   layers and substrate; the unit of length is the contact radius
+    plane  True for a body in plane strain
     """
     thickness = sum(layer.thickness for layer in body.layers)
     x = 0.0
@@ -137,6 +150,8 @@ def sufficient_box(body: Body) -> float:
             layer.thickness * _stiffness_difference(layer.material, body.material)
             for layer in body.layers
         )
+    if plane:
+        return float(max(100.0, 3e4 * x, 10.0 * thickness))
     return float(max(100.0, 300.0 * np.sqrt(x), 100.0 * x, 10.0 * thickness))
 
 

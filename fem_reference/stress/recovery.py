@@ -77,10 +77,10 @@ class Recovery:
         """
         strain = dict.fromkeys(ORDER, np.zeros_like(self.at.dx))
         for component, values in zip(of.components, u, strict=True):
-            found = strains(self.at.interpolate(values), component, of.harmonic)
+            found = strains(self.at.interpolate(values), component, of.in_strains)
             strain |= {name: strain[name] + part for name, part in found.items()}
         # The volume strain enters with its projection onto linear functions.
-        expansion = volume_strain(self.basis, of.harmonic, of.components)
+        expansion = volume_strain(self.basis, of.in_strains, of.components)
         local = u[:, self.basis.element_dofs].reshape(-1, len(expansion))
         volume = volume_strain_at(self.basis, self.at, np.einsum("eip,ie->ep", expansion, local))
         pressing = dilatation(self.section).resistance[:, None] * volume

@@ -65,7 +65,8 @@ def subsurface(
     scales = Scales(length, modulus)
     edges = tractions.edges / length
     zone = max(CONTACT_ZONE, tractions.reach / length)
-    section = _stress_mesh(scales.dimensionless(body), discretisation, zone).refine_towards(edges)
+    mesh = _stress_mesh(scales.dimensionless(body), discretisation, zone, plane=tractions.plane)
+    section = mesh.refine_towards(edges)
     _refuse_incompressible(section)
     recovery = recovery_of(section)
     points = _create_load_points(section, tractions, length)
@@ -102,7 +103,7 @@ def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: floa
 
 
 def _stress_mesh(
-    body: Body, discretisation: FiniteElementDiscretisation, zone: float
+    body: Body, discretisation: FiniteElementDiscretisation, zone: float, *, plane: bool
 ) -> SectionMesh:
     """Create the mesh for the stress in a body: a coarse mesh, each element divided into 4.
 
@@ -113,9 +114,10 @@ def _stress_mesh(
     body            layers and substrate; the unit of length is the radius of the loaded circle
     discretisation  number of elements per radius, and size of the section
     zone            least outer radius of the zone of equal elements, in the same unit
+    plane           True for a body in plane strain
     """
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
-    return section_mesh(body, coarse, discretisation.box, zone).refined()
+    return section_mesh(body, coarse, discretisation.box, zone, plane=plane).refined()
 
 
 def _refuse_incompressible(section: SectionMesh) -> None:
@@ -143,6 +145,7 @@ class _LoadPoints:
     radii     radii of the integration points (k,), dimensionless
     weighted  ψ w r at the points for every node of the surface (m, k), with the trace function ψ
               and the weight w, so that ∫ ψ t r dr = weighted @ t for tractions t
+              (∫ ψ t dr in plane strain)
     """
 
     radii: Field
@@ -191,7 +194,7 @@ def _create_load_points(
     x, w = np.polynomial.legendre.leggauss(POINTS_BETWEEN)
     width = np.diff(ends)[:, None]
     r = (ends[:-1, None] + 0.5 * width * (1 + x)).ravel()
-    weight = (0.5 * width * w).ravel() * r
+    weight = (0.5 * width * w).ravel() * r**section.outline.power
     element = np.clip(np.searchsorted(corners, r) - 1, 0, len(corners) - 2)
     at = (r - corners[element]) / (corners[element + 1] - corners[element])
     trace = np.zeros((len(nodes), len(r)))

@@ -23,7 +23,15 @@ from fem_reference.compliance.ring_edge import (
     HatEdge,
     contact_edge,
 )
-from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
+from fem_reference.elasticity.motion import (
+    LINE_PRESSING,
+    LINE_SHEARING,
+    PRESSING,
+    SHEARING,
+    TORSION,
+    Motion,
+    motion,
+)
 from fem_reference.fields import Increment
 
 # The smooth factor near the edge is fitted without the last element with pressure. Hat functions
@@ -72,6 +80,7 @@ class SurfaceTractions:
               edge
     edge      coefficients of the polynomial from the ratio of the last two pressures to the
               distance of the edge from the last ring with pressure, in elements
+    plane     True for a line contact, with equal tractions at x and -x
     """
 
     radii: Field
@@ -82,6 +91,7 @@ class SurfaceTractions:
     shear_along_load: Field | None = None
     rooted: bool = False
     edge: Beyond = BEYOND
+    plane: bool = False
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
@@ -98,6 +108,7 @@ class SurfaceTractions:
             increment.shear_radial,
             increment.shear_circumferential,
             increment.shear_along_load,
+            plane=increment.is_line,
         )
 
     @property
@@ -160,6 +171,9 @@ class SurfaceTractions:
                 for turned, family in enumerate(values)
             ]
         outward, around, along, pressure = values[0, ..., 0]
+        if self.plane:
+            by_shear = TractionAmplitude(LINE_SHEARING, np.stack([along, 0.0 * along]))
+            return [TractionAmplitude(LINE_PRESSING, np.stack([outward, pressure])), by_shear]
         found = [TractionAmplitude(PRESSING, np.stack([outward, pressure]))]
         if self.shear_circumferential is not None:
             found.append(TractionAmplitude(TORSION, around[None]))
@@ -214,7 +228,7 @@ class SurfaceTractions:
         if self._per_element > 1:
             element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])
             # The rings end beyond the edge, and may be every second one.
-            edge = GaussEdge(element, whole_elements=False)
+            edge = GaussEdge(element, whole_elements=False, power=0 if self.plane else 1)
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:

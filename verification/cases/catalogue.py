@@ -40,6 +40,7 @@ CASES = (
     "line_loop",
     "line_shapes",
     "line_unlike",
+    "line_on_elements",
     "torsion",
     "contact_stiffness",
     "near_sliding",
@@ -99,7 +100,9 @@ MODULES = {
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
         *("radial_tangential", "growing_loads"),
     ),
-    "line_contacts": ("line_push", "line_loop", "line_shapes", "line_unlike"),
+    "line_contacts": (
+        *("line_push", "line_loop", "line_shapes", "line_unlike", "line_on_elements"),
+    ),
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (

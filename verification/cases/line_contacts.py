@@ -1,12 +1,14 @@
-"""Verification cases of line contacts in plane strain, on strips: closed forms per unit length.
+"""Verification cases of line contacts in plane strain: closed forms per unit length.
 
 A cylinder is pressed, pushed, pushed to and fro, strained and slid; wedges and flat punches have
-tips and edges. The bodies are half-spaces, or a thin layer on a rigid base.
+tips and edges. The bodies are half-spaces, or a thin layer on a rigid base. They are solved on
+strips, and on plane-strain elements, which are also compared with strips on coated bodies.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -32,7 +34,7 @@ from verification.closed_forms.line_contact import (
     WedgeContact,
     rounded_strip_load,
 )
-from verification.judging.case import Case, Level
+from verification.judging.case import Case, Level, compare_runs
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -44,13 +46,19 @@ from verification.judging.declared_case import (
     SHEAR,
     STICK_RADIUS,
     STRIPS_WINDOW,
+    TOLERANCE_ELEMENTS,
     Observable,
     Within,
     case,
     error_norm,
+    finest,
     judged,
     number,
+    on_elements,
+    on_springs,
     on_strips,
+    part_of_side,
+    scaled_tolerance,
 )
 from verification.judging.drawings import Drawn, profile
 from verification.problems.problem import (
@@ -61,6 +69,7 @@ from verification.problems.problem import (
     RADIUS,
     STEEL,
     Problem,
+    ReferenceKind,
 )
 
 STRIPS = 1024
@@ -340,6 +349,20 @@ UNIAXIAL = 1e9 * 0.7 / (1.3 * 0.4)
 HALF = 1e-3
 THICKNESS = 1e-3 / 80
 THIN_PEAK = UNIAXIAL * HALF**2 / (2 * RADIUS * THICKNESS)
+OF_THIN = "the limit of thin layers, to second order in h/a"
+RIGID_CYLINDER = Cylinder(radius=RADIUS, material=RIGID, reference_length=DISTANCE)
+THIN_LAYER = _problem(
+    _cylinder(
+        LoadStep(normal_force=4 / 3 * THIN_PEAK * HALF),
+        friction=None,
+        indenter=RIGID_CYLINDER,
+        body=Body(material=RIGID, layers=(Layer(thickness=THICKNESS, material=THIN),)),
+    ),
+    SimpleNamespace(peak_pressure=THIN_PEAK),
+    uncertainty=(THICKNESS / HALF) ** 2,
+    half_width=HALF,
+    source="Johnson 1985, section 5.8",
+)
 
 
 # Along the line the surface is softer than across it by 1/(1 - ν).
@@ -370,31 +393,17 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    rigid = Cylinder(radius=RADIUS, material=RIGID, reference_length=DISTANCE)
     sliding = _problem(
         _cylinder(
             LoadStep(normal_force=LOAD, tangential_shift=(0.0, 0.0)),
             LoadStep(tangential_shift=(1e-3, 0.0)),
             friction=SLIDING.friction,
-            indenter=rigid,
+            indenter=RIGID_CYLINDER,
         ),
         HERTZ_LINE,
         SLIDING,
         half_width=SLIDING.contact_radius,
         source="Johnson 1985, section 8.2",
-    )
-    body = Body(material=RIGID, layers=(Layer(thickness=THICKNESS, material=THIN),))
-    thin = _problem(
-        _cylinder(
-            LoadStep(normal_force=4 / 3 * THIN_PEAK * HALF),
-            friction=None,
-            indenter=rigid,
-            body=body,
-        ),
-        SimpleNamespace(peak_pressure=THIN_PEAK),
-        uncertainty=(THICKNESS / HALF) ** 2,
-        half_width=HALF,
-        source="Johnson 1985, section 5.8",
     )
     along = _problem(
         _cylinder(PRESS, LoadStep(tangential_force=(0.0, PUSH))),
@@ -416,8 +425,8 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
             ),
         ),
         judged(
-            on_strips(thin, STRIPS, of="thin layer"),
-            (Within(PEAK_PRESSURE, 2 / 80**2, "the limit of thin layers, to second order in h/a"),),
+            on_strips(THIN_LAYER, STRIPS, of="thin layer"),
+            (Within(PEAK_PRESSURE, 2 / 80**2, OF_THIN),),
         ),
         judged(
             on_strips(along, STRIPS, of="along"),
@@ -434,4 +443,116 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
         ),
         no_order=JUDGED_BY.format("line_push"),
         shows=("line contacts", "unlike bodies"),
+    )
+
+
+ON_ELEMENTS = f"accuracy target of line contacts on elements, at {TOLERANCE_ELEMENTS}"
+A_TENTH = "a tenth of an element: the edge is extrapolated from the last values"
+COATING = Layer(
+    thickness=0.5 * HERTZ_LINE.contact_radius,
+    material=IsotropicMaterial(young_modulus=2 * STEEL.young_modulus, poisson_ratio=0.25),
+)
+
+
+def _coated(*loading: LoadStep, friction: float | None = FRICTION) -> Problem:
+    """Create the problem of a cylinder on a half-space, of which one or both are coated.
+
+    With friction both bodies are coated alike, so that pressure and shear are not coupled.
+    """
+    body = Body(material=STEEL, layers=(COATING,))
+    cylinder = Cylinder(radius=RADIUS, material=STEEL, reference_length=DISTANCE)
+    if friction is not None:
+        cylinder = cylinder.model_copy(update={"layers": body.layers})
+    scene = _cylinder(*loading, friction=friction, indenter=cylinder, body=body)
+    return _problem(scene, *[HERTZ_LINE] * len(loading))
+
+
+COATED_LINES = {
+    "coated": _coated(PRESS, friction=None),
+    "both coated": _coated(PRESS, LoadStep(tangential_force=(PUSH, 0.0))),
+}
+
+
+def _apart(name: str, step: int, one: Any, other: Any) -> float:
+    """Return the relative difference of a number of two results at the end of a load step."""
+    ends = one.steps[step], other.steps[step]
+    found, expected = (np.linalg.norm(getattr(end, name)) for end in ends)
+    return float(abs(found / expected - 1))
+
+
+def line_on_elements(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of line contacts on plane-strain elements.
+
+    level  amount of computation: quick, standard or full
+    """
+    elements = finest(level)
+    pushed = on_elements(PUSHED_LINE, (elements,), of="pushed")
+    of_peak, of_mean, of_edge = (
+        scaled_tolerance(1e-4, 2.0),
+        scaled_tolerance(2e-5, 2.0),
+        part_of_side(0.1),
+    )
+    rows = (
+        Within(PRESSED_PEAK, of_peak, f"second order, {ON_ELEMENTS}"),
+        Within(PRESSED_APPROACH, of_mean, "a fifth of the peak pressure: a mean over the contact"),
+        Within(
+            replace(PRESSURE_L1, step=0),
+            scaled_tolerance(1e-3, 1.5),
+            "order 3/2: an error of O(√h) at the edge, on elements of the width h",
+        ),
+        Within(CONTACT_RADIUS, of_edge, A_TENTH),
+        Within(STICK_RADIUS, of_edge, A_TENTH),
+        Within(SHIFT_X, of_peak, "as the peak pressure"),
+        Within(SHEAR, scaled_tolerance(2e-3, 1.5), "as the pressure, over µ, with two edges"),
+        Within(
+            replace(ENERGY, unit=PER_LENGTH, source=SOURCE),
+            part_of_side(0.3),
+            "three times the error of the stick half width: third power of the slip zone's width",
+        ),
+    )
+    strips = {"peak_pressure": 1e-5, "approach": 1e-5, "contact_radius": 2e-4}
+    strips_pushed = {"tangential_shift": 1e-5, "stick_radius": 2e-4}
+    own = {
+        **{"peak_pressure": of_peak, "approach": of_mean, "contact_radius": of_edge},
+        **{"tangential_shift": of_peak, "stick_radius": of_edge},
+    }
+    compared, runs = [], []
+    for pair, of in COATED_LINES.items():
+        one, other = on_elements(of, (elements,), of=pair).judged, on_strips(of, STRIPS, of=pair)
+        runs += [one.run, other.judged.run]
+        for step, allowed in enumerate((strips, strips_pushed)[: len(of.ends)]):
+            compared += [
+                compare_runs(
+                    f"{name}_of_{pair.replace(' ', '_')}",
+                    f"difference of elements from strips: {name.replace('_', ' ')}, relative",
+                    (one.run.label, other.judged.run.label),
+                    partial(_apart, name, step),
+                    own[name](one) + more,
+                    "sum of the tolerances of both solvers for half-spaces",
+                    "strips, which share only the scene",
+                    ReferenceKind.OTHER_SOLVER,
+                )
+                for name, more in allowed.items()
+            ]
+    return case(
+        "line_on_elements",
+        "Line contact: plane-strain elements",
+        "The cylinder of line_push and the thin layer of line_unlike on finite elements in plane "
+        "strain, with the exact law and with a penalty. A steel cylinder on a steel half-space "
+        "with a coating twice as stiff and half as thick as the half width, and with this coating "
+        "on both bodies and a push, are compared with strips.",
+        judged(pushed, rows),
+        judged(on_springs(pushed, f"pushed, {elements} elements per radius, penalty"), rows),
+        judged(
+            on_elements(THIN_LAYER, (elements,), of="thin layer"),
+            (Within(PEAK_PRESSURE, 2 / 80**2, OF_THIN),),
+        ),
+        runs=tuple(runs),
+        quantities=tuple(compared),
+        equations=(
+            r"u_z = \frac{1}{2\pi G} \left(\frac{z^2}{r^2} - 2 (1 - \nu) \ln\frac{r}{L}\right)"
+            r"\ \text{at the end of the section}",
+        ),
+        no_order="the errors depend on the places of the edges within elements",
+        shows=("line contacts", "finite elements"),
     )

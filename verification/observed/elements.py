@@ -20,7 +20,14 @@ from contact_scene.array_types import Field
 from fem_reference import Increment, Path, Result
 from fem_reference.compliance.gauss_points import gauss_points
 from fem_reference.elasticity.hat_functions import TractionBasis
-from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
+from fem_reference.elasticity.motion import (
+    LINE_PRESSING,
+    LINE_SHEARING,
+    PRESSING,
+    SHEARING,
+    TORSION,
+    motion,
+)
 from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.scales import Scales
 from verification.observed.contact_state import (
@@ -85,7 +92,7 @@ class Rings:
         )
         if on_points:
             model = model_of(result, float(last.radii[0] + last.radii[2]) / 2 / float(nodes[1]))
-            basis: TractionBasis = gauss_points(model.radii, model.rim)
+            basis: TractionBasis = gauss_points(model.radii, model.rim, model.power)
         else:
             model = model_of(result, float(last.radii[-1] / nodes[::2][len(last.radii) - 1]))
             basis = model.hats
@@ -166,7 +173,8 @@ class Rings:
         share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
         r = radii[:-1, None] + width * share
         at_points = on_ring[:-1, None] * (1 - share) + on_ring[1:, None] * share
-        return float(np.sum(0.5 * width * PARTS * r * at_points))
+        weight = 1.0 if self._on_strips else r
+        return float(np.sum(0.5 * width * PARTS * weight * at_points))
 
     def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
         """Compute the surface displacements of the lower body relative to the indenter from
@@ -177,6 +185,13 @@ class Rings:
         p  pressure (rings, angles) [force/length²]
         q  shear (2, rings, angles) [force/length²]
         """
+        if self._on_strips:
+            normal = self.model.compliance(LINE_PRESSING).matrix[1, :, 1]
+            u, u_z = np.zeros((2, *self._shape)), self._ring_means(normal, p[:, 0])[:, None]
+            if self.path is Path.SHEARING:
+                across = self.model.compliance(LINE_SHEARING).matrix[0, :, 0]
+                u[0, :, 0] = self._ring_means(across, q[0, :, 0])
+            return u, u_z
         if self.path in (Path.SHEARING, Path.TWISTING):
             u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
             if component:
@@ -207,6 +222,11 @@ class Rings:
         return len(self.basis.radii), len(self.angles)
 
     @property
+    def _on_strips(self) -> bool:
+        """True for a line contact, whose fields are equal at x and -x, per unit length."""
+        return self.model.plane
+
+    @property
     def _covers_circle(self) -> bool:
         """True if the angles cover the whole circle, and not half of it."""
         return len(self.angles) > 1 and self.path is Path.WHOLE_CIRCLE
@@ -218,7 +238,12 @@ class Rings:
 
     @cached_property
     def _angle_weights(self) -> Field:
-        """Integration weights (angles,) of the trapezium rule over the full circle [radian]."""
+        """Integration weights (angles,) of the trapezium rule over the full circle [radian].
+
+        In a line contact the weight is 2, for both sides.
+        """
+        if self._on_strips:
+            return np.full(1, 2.0)
         if len(self.angles) == 1 or self._covers_circle:
             return np.full(len(self.angles), 2 * np.pi / len(self.angles))
         share = np.full(len(self.angles), 2 * self.angles[1])
@@ -307,10 +332,12 @@ def _state_on_elements(
     forces, motions = _loads_and_motions(increment, result)
     if motions is None and not np.any(forces):
         motions = np.zeros(3)
-    w, depth = rings.weights, abs(increment.approach)
+    approach = increment.approach
+    assert approach is not None  # a line contact has a reference length
+    w, depth = rings.weights, abs(approach)
     friction = rings.model.friction.at_radii(rings.basis.radii[:, None])
     limit, stretched = friction.limit(p), rings.stretched(increment)
-    gap, driven = rings.undeformed + u_z - increment.approach, rings.driven
+    gap, driven = rings.undeformed + u_z - approach, rings.driven
     apart = np.where(p > 0, 0.0, gap)
     stated = [float(np.max(np.abs(apart - rings.on_grid(increment.gap))) / depth)]
     loose: Field | float = 0.0
@@ -345,7 +372,7 @@ def _state_on_elements(
         slip,
         None if undefined else passed,
         np.array([increment.normal_force, *forces, float(np.sum(w * q[0] * rings.arms[:, None]))]),
-        np.array([increment.approach, *moved, -strain]),
+        np.array([approach, *moved, -strain]),
         depth,
         tuple(balances),
         tuple(stated),

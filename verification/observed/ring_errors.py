@@ -161,9 +161,9 @@ def relative_l2(
     radius     contact radius; the integrals extend to 1.1 times this radius [length]
     """
     r = between_rings(increment, radius)
-    known = exact(r)
+    known, weight = exact(r), _weight(increment, r)
     error = np.interp(r, increment.radii, traction) - known
-    return float(np.sqrt(np.sum(error**2 * r) / np.sum(known**2 * r)))
+    return float(np.sqrt(np.sum(error**2 * weight) / np.sum(known**2 * weight)))
 
 
 def relative_l1(
@@ -181,8 +181,16 @@ def relative_l1(
     """
     r = between_rings(increment, radius)
     error = np.interp(r, increment.radii, traction) - exact(r)
-    pressure = np.interp(r, increment.radii, increment.pressure)
-    return float(np.sum(np.abs(error) * r) / np.sum(pressure * r))
+    pressure, weight = np.interp(r, increment.radii, increment.pressure), _weight(increment, r)
+    return float(np.sum(np.abs(error) * weight) / np.sum(pressure * weight))
+
+
+def _weight(increment: Increment, r: Field) -> Field:
+    """Return the weight of integrals over dr: r, or 1 in a line contact.
+
+    Fields of another program, which are judged too, are of bodies of revolution.
+    """
+    return np.ones_like(r) if getattr(increment, "is_line", False) else r
 
 
 def judged_within(elements: int) -> float:

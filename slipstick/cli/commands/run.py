@@ -154,7 +154,7 @@ def run(
             from contact_results.result_report import ResultReport
 
             report = ResultReport.of(result)
-            write_fields(report, staging, all_fields=all_fields)
+            write_fields(report, staging, all_fields=all_fields, given=contents.scene)
         if error and stated is None:
             with stopwatch.phase("error"), show_coarse_solves():
                 from contact_errors.coarse_solves import stated_errors

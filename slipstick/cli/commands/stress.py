@@ -245,7 +245,7 @@ def stress(
                 )
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
-            state = state_of_result(result, step, stated)
+            state = state_of_result(result, step, stated).with_bodies_of(contents.scene)
         which, _ = _elastic_body(state, indenter)
         field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
         found = extremes(field)
@@ -365,6 +365,8 @@ def _write_points(
         number, index, state = state if history else (state.step, None, state)
         if state is None:
             continue
+        if contents is not None:
+            state = state.with_bodies_of(contents.scene)
         title, (which, body) = state.title, _elastic_body(state, indenter)
         x, y, levels = _parse_points(at, state, indenter)
         try:

@@ -26,6 +26,7 @@ from contact_scene import SceneFile
 from contact_scene.contact_features import PEAK
 from contact_scene.discretised import PER_TOLERANCE, DiscretisedSolver, Fineness
 from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.quantities.stated_error import Part
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_accuracy
@@ -245,7 +246,8 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
     solver, at = solver_of(result), level.scene.step - 1
     steps, features = values_of(result), solver.features(result)[at]
     sizes = {stem: float(np.max(size)) for stem, size in largest_so_far(steps)[-1].items()}
-    ends, counts = list(_key_scalars(steps[at])), solver.unknowns(result)
+    line = result.scene.indenter.is_line
+    ends, counts = list(_key_scalars(steps[at], line=line)), solver.unknowns(result)
     unrefined = dict(solver.neglected_errors(result))
     if level.is_run and solver.with_half_the_points() is not None:
         for stem, stated in stated_errors(result).steps[at].items():
@@ -254,7 +256,7 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
     return CaseRecord(
         parameters={"level": level.level, "side": max(solver.cell_sides(result))},
         measures={**{name: value for name, _, value in ends}, RESIDUAL: largest_residual(result)},
-        units={name: KEYS[stem].unit for name, stem, _ in ends},
+        units={name: shown_unit(KEYS[stem].unit, line=line) for name, stem, _ in ends},
         counters={"increments": len(result.increments), "unknowns": counts},
         words={"infinite": PEAK} if features.infinite else {},
         seconds=seconds,
@@ -275,19 +277,20 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
     )
 
 
-def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
+def _key_scalars(values: Values, *, line: bool) -> Iterator[tuple[str, str, float]]:
     """Yield the main scalar results of a load step as (name, quantity, value).
 
     A component of a vector has the name of its quantity with _x or _y. For a scalar, name and
-    quantity are equal.
+    quantity are equal, except for the names of a line contact.
 
     values  computed values by quantity, at the end of a load step
+    line    True for a line contact
     """
     for stem, numbers in values.items():
         if stem in KEYS:
             names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)
             for name, value in zip(names, numbers.tolist(), strict=True):
-                yield name, stem, value
+                yield shown_name(name, line=line), stem, value
 
 
 @dataclass(frozen=True)
