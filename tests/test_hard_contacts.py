@@ -34,6 +34,8 @@ ON_CELLS = [
     replace(ORDINARY, length=1e-9),
     replace(ORDINARY, load=1e-5),
     replace(ORDINARY, friction=1e-6),
+    # The friction limit is less than the round-off of the displacement by the pressure, times γ.
+    replace(STIFF_FILM, friction=1e-6, push=0.5, poisson_ratio=0.3, cells=48),
     replace(ORDINARY, modulus_ratio=1e3, thickness=0.01, poisson_ratio=0.5),
     replace(ORDINARY, modulus_ratio=1e-3, thickness=10.0),
     # Accepting Newton steps uphill for their residual went round in circles here,

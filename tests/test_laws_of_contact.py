@@ -34,6 +34,7 @@ from contact_scene import (
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
 from semi_analytical import solve
 from verification.judging.case import OTHER_NORMS, OVER_RINGS
@@ -270,6 +271,48 @@ def test_more_than_friction_carries_is_refused(name: str, solver: Any) -> None:
     with pytest.raises(GrossSliding, match=words) as caught:
         slipstick.solve(described, solver, SOLVERS[solver])
     assert f"step {len(described.loading)}, increment" in str(caught.value)
+
+
+STICKS, SLIPS, SLIDES, APART = (
+    ContactStatus.FULL_STICK,
+    ContactStatus.PARTIAL_SLIP,
+    ContactStatus.GROSS_SLIDING,
+    ContactStatus.SEPARATED,
+)
+NOTHING = (0.0, 0.0)
+# Load steps after pressing, and the state at their end: status, tangential force, and shift (None:
+# undefined; ANY: not the same in all solvers).
+ANY = "any"
+ENDS: dict[str, tuple[Any, tuple[dict, ...], ContactStatus, tuple, Any]] = {
+    "at the limit": (ALIKE, (push(1.0),), SLIDES, (LIMIT, 0.0), None),
+    "at the limit, obliquely": (ALIKE, (push(0.6, 0.8),), SLIDES, (0.6 * LIMIT, 0.8 * LIMIT), None),
+    "at the limit, coupled": (UNLIKE, (push(1.0),), SLIDES, (LIMIT, 0.0), None),
+    "less pressure at the limit": (
+        ALIKE,
+        (push(0.5), press(0.5)),
+        SLIDES,
+        (0.5 * LIMIT, 0.0),
+        None,
+    ),
+    "far": (ALIKE, (far(100),), SLIDES, (LIMIT, 0.0), (10 * APPROACH, 0.0)),
+    "far, coupled": (UNLIKE, (far(100),), SLIDES, (LIMIT, 0.0), (10 * APPROACH, 0.0)),
+    "hardly pushed": (ALIKE, (push(1e-9),), STICKS, (1e-9 * LIMIT, 0.0), ANY),
+    "twisted": (ALIKE, (torque(0.5),), SLIPS, NOTHING, NOTHING),
+    "unloaded": (ALIKE, (push(0.5), both(0.0, 0.0)), APART, NOTHING, ANY),
+}
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("name", ENDS)
+def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> None:
+    make, steps, status, force, shift = ENDS[name]
+    end = slipstick.solve(make(press(increments=2), *steps), solver, SOLVERS[solver]).steps[-1]
+    assert end.status is status
+    np.testing.assert_allclose(end.tangential_force, force, atol=1e-6 * LIMIT, rtol=0)
+    if shift is None:
+        assert end.tangential_shift is None
+    elif shift is not ANY:
+        np.testing.assert_allclose(end.tangential_shift, shift, atol=1e-9 * APPROACH, rtol=0)
 
 
 TILTED = {"moment": (0.1 * LOAD * A, 0.3 * LOAD * A)}

@@ -102,11 +102,9 @@ def test_a_layer_equal_to_its_base_has_huber_s_stress_at_its_interface(
     scene.write_text(EQUAL, encoding="utf-8")
     options = ("--figures", "none", "-o")
     if source == "run":
-        ran = outcome("run", scene, "--no-error", *options, tmp_path / "run", cwd=ROOT)
-        assert ran.returncode == 0, ran.stderr
+        succeeded("run", scene, "--no-error", *options, tmp_path / "run", cwd=ROOT)
         scene = tmp_path / "run"
-    ended = outcome("stress", scene, *options, tmp_path / "stress", cwd=ROOT)
-    assert ended.returncode == 0, ended.stderr
+    succeeded("stress", scene, *options, tmp_path / "stress", cwd=ROOT)
     (found,) = (
         row
         for row in json.loads((tmp_path / "stress/stress.json").read_text("utf-8"))["maxima"]

@@ -100,14 +100,14 @@ def _add_shear(
     if plan.twists:
         twist = state.twist if state.motions is None else state.motions[TWIST]
         fields |= {"torque": state.loads[TWIST], "twist": twist}
-    if path is not Path.TWISTING:
-        force, shift = (
-            None if parts is None else (parts[0] * x - parts[1] * y, parts[0] * y + parts[1] * x)
-            for parts in (state.loads, state.motions)
-        )
-        fields |= {"tangential_force": force, "tangential_shift": shift}
+    force, shift = (
+        None if parts is None else (parts[0] * x - parts[1] * y, parts[0] * y + parts[1] * x)
+        for parts in (state.loads, state.motions)
+    )
     return replace(
         pressed,
+        tangential_force=force,
+        tangential_shift=shift,
         status=state.status,
         in_stick=_result_field(contact, state.in_stick),
         stick_radius=_radius_of(contact, _stick_area(contact, state, edges)),

@@ -171,6 +171,8 @@ class TorsionSteps(StepsOnRings):
             made,
             residuals=residuals,
             status=_contact_status(stick),
+            tangential_force=(0.0, 0.0),
+            tangential_shift=None if state.twist is None else (0.0, 0.0),
             torque=state.torque,
             twist=state.twist,
             stick_radius=stick * state.normal_contact.contact.radius,
