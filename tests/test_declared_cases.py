@@ -18,7 +18,15 @@ from contact_scene.disk_cache import without_cache
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.solver_errors import SolverError
 from verification.cases.catalogue import CASES, case_of
-from verification.judging.case import Case, Derived, Level, Quantity, Required, Run
+from verification.judging.case import (
+    Case,
+    Derived,
+    Level,
+    Quantity,
+    Required,
+    Run,
+    compare_runs,
+)
 from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
@@ -35,7 +43,7 @@ from verification.judging.declared_case import (
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status, Verdict
 from verification.problems.indentation import BALL
-from verification.problems.problem import HERTZ, hertz_grid
+from verification.problems.problem import HERTZ, ReferenceKind, hertz_grid
 from verification.regression.baseline import Key, key_of
 
 CELLS = (32, 64, 128)
@@ -89,6 +97,19 @@ def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
     assert [run.label for run in asked] == ["32x32", "64x64", "128x128"]
     assert [run.label for run in made.runs[3:]] == list(grids.levels)
     assert [finding.run for finding in made.findings] == ["128x128"]
+
+
+def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:
+    """Relative to the reference: 3 instead of 2 is off by half, which is twice the uncertainty."""
+    results: dict[str, Any] = {"judged": 2.1, "reference": 2.0, "coarse": 3.0}
+    row = compare_runs(
+        *("name", "meaning", ("judged", "reference")),
+        lambda one, other: abs(one - other) / other,
+        *(0.1, "why", "source", ReferenceKind.OTHER_SOLVER),
+        coarse="coarse",
+    )
+    case: Any = SimpleNamespace()
+    assert with_uncertainty(row, case, results).reference.uncertainty == 0.25
 
 
 # ---- Every verdict of the catalogue can fail.
