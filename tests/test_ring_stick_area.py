@@ -52,11 +52,20 @@ def test_a_sector_that_sticks_is_as_wide_as_the_contact_of_harmonics(
     angles = 2 * np.pi * np.arange(count) / count
     size = 2.0 - missing
     way = turning * np.sin(angles) - angles
-    shear = np.stack([size * np.cos(way), size * np.sin(way)])
-    whole = np.broadcast_to(shear[:, None], (2, len(RINGS), count))
-    area = ring_stick_area(RINGS, whole, np.full(sticks.shape, 2.0), sticks)
+
+    def area_of(way: Array) -> float:
+        shear = np.stack([size * np.cos(way), size * np.sin(way)])
+        whole = np.broadcast_to(shear[:, None], (2, len(RINGS), count))
+        return ring_stick_area(RINGS, whole, np.full(sticks.shape, 2.0), sticks)
+
+    area = area_of(way)
     width = area / (np.pi * RINGS[-1] ** 2) * count / 2
     assert width == pytest.approx(half, abs=0.01 if turning == 0 else 0.05)
+    # Turned as a whole, with the jump of the angle by 2π between any two points beside the border.
+    for last in np.flatnonzero(np.diff(sticks[0])):
+        beside = way[last - 2 : last + 4]
+        for jump in (beside[1:] + beside[:-1]) / 2:
+            assert area_of(way + np.pi - jump) == pytest.approx(area, rel=1e-9)
 
 
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
