@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 from synthetic_result import MU, synthetic_result
 
-from contact_results.figures.map_panels import MapFrame, RingsAbove
+from contact_results.figures.map_panels import PANEL, MapFrame, RingsAbove
 from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE, overview
 from contact_results.figures.profile_plot import profile_plot
@@ -107,8 +107,11 @@ def test_a_map_has_every_cell_at_its_place_and_a_profile_the_limit_of_its_last_s
     with figure_style():
         figure: Any = field_map(report, frame_of(report), "pressure")
         drawn = figure.axes[2].images[0].get_array().filled(0.0)
+        figure.draw_without_rendering()
+        wide = figure.get_size_inches() * figure.axes[2].get_position().size
         (band,) = profile_plot(report).axes[1].collections
     np.testing.assert_allclose(1e9 * drawn, end.pressure.T)
+    assert np.max(wide) == pytest.approx(PANEL, rel=0.2)  # labels take the rest
     highest = 1e6 * np.max(band.get_paths()[0].vertices[:, 1])
     assert highest == pytest.approx(MU * np.max(report.surface.along(end.pressure)))
 
