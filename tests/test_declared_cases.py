@@ -17,12 +17,15 @@ import pytest
 from contact_scene.disk_cache import without_cache
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.solver_errors import SolverError
+from verification.cases import frictional_pressing
 from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import (
     Case,
     Derived,
+    Followed,
     Level,
     Quantity,
+    Refinement,
     Required,
     Run,
     compare_runs,
@@ -97,6 +100,18 @@ def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
     assert [run.label for run in asked] == ["32x32", "64x64", "128x128"]
     assert [run.label for run in made.runs[3:]] == list(grids.levels)
     assert [finding.run for finding in made.findings] == ["128x128"]
+
+
+def test_an_order_is_judged_on_all_levels_but_those_that_are_left_out() -> None:
+    orders = tuple(
+        frictional_pressing.change(of, "change", lambda one, other: 1.0, 1.0, "why")
+        for of in (Followed.SHIFT, Followed.APPROACH)
+    )
+    runs: Any = [SimpleNamespace(label=label) for label in "abcd"]
+    made = frictional_pressing.Refined(
+        runs, Refinement.INCREMENTS, len, "h", orders, 1, {Followed.APPROACH: 1}
+    )
+    assert [one.levels for one in made.orders] == [tuple("abcd"), tuple("bcd")]
 
 
 def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:
