@@ -164,13 +164,6 @@ def test_a_worked_example() -> None:
     assert unknown.error is None
     assert "coarse solve" in (unknown.reason or "")
     assert found.reason is None
-    for name, few in {
-        "stick_radius": Features(10, stick=0.9),
-        "dissipated_energy": Features(10, annulus=0.0),
-        "approach": Features(10, layer=0.9),
-        "peak_pressure": Features(10, wave=3.9),
-    }.items():
-        assert few.unresolved(name), name
 
 
 @pytest.mark.parametrize(
@@ -295,7 +288,7 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios
         ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
         ("tangential_shift", {"stick": 0.0, "annulus": 9.0}, False),
         ("tangential_shift", {"stick": 0.0, "annulus": 9.0, "slides": True}, True),
-        ("tangential_shift", {"stick": 0.0, "annulus": 0.0}, False),
+        ("dissipated_energy", {"stick": 0.0, "annulus": 0.0}, False),
         ("peak_pressure", {"stick": 0.0}, True),
         ("peak_pressure", {"stick": 0.0, "cusp": True}, False),
         ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
