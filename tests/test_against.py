@@ -260,6 +260,7 @@ def test_a_column_without_a_unit_has_that_of_its_head(place: Path) -> None:
     [
         ("--columns", "shift=2", "unit of its numbers"),
         ("--columns", "shift=4 um,T=3 N", "expected 1 to 3"),
+        ("--columns", "shift=0 um,T=3 N", "got column 0, expected 1 to 3"),
         ("--columns", "foo=2 um", "known names"),
         ("--columns", "shift=2 um, delta=3 um", "different names"),
         ("--require", "5", "at most 50 %"),

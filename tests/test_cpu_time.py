@@ -1,5 +1,7 @@
 """Tests of the CPU time of commands over that of a calibrated loop."""
 
+from pathlib import Path
+
 import pytest
 
 from contact_results.directory.atomic_file import Refused
@@ -34,6 +36,13 @@ def test_a_command_is_as_dear_as_its_cheapest_repeat(
     repeats = iter(measured)
     rows = cpu_time_changes({"run": ()}, MADE, known, lambda _: next(repeats))
     assert [row.kind for row in rows] == kinds
+
+
+def test_the_processor_has_the_name_that_the_system_gives_it() -> None:
+    """Times are compared on processors of one name."""
+    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    names = {line.split(": ")[-1] for line in lines if line.startswith("model name")}
+    assert KNOWN.processor in names or not names
 
 
 def test_a_command_without_a_stored_time_is_refused() -> None:

@@ -8,9 +8,12 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from contact_scenes import (
+    INDENTERS,
+    LOAD,
     PRESS,
     push,
     scene,
+    steel,
 )
 from error_scenes import size
 
@@ -72,6 +75,52 @@ def test_a_worked_example() -> None:
     assert unknown.error is None
     assert "coarse solve" in (unknown.reason or "")
     assert found.reason is None
+
+
+@pytest.mark.parametrize(
+    ("ratios", "finest"),
+    [({"cells": 2.0}, 1.0), ({"cells": 0.5}, 0.5), ({"cells": 2.0, "increments": 0.5}, 1.0)],
+    ids=["the run", "a finer solve", "other increments"],
+)
+def test_the_finest_solve_has_to_resolve_the_contact(ratios, finest) -> None:
+    """Four of its cells are the least, however wide those of the run are."""
+    same = [{"approach": np.array([2.0])}]
+    compared = [Comparison(part, same, same, [ratio]) for part, ratio in ratios.items()]
+    found = [errors_of_one(2.0, compared, Features(contact=4 * finest * x)) for x in (1.01, 0.99)]
+    assert [one.status for one in found] == [ErrorStatus.ESTIMATED, ErrorStatus.NOT_CONVERGED]
+
+
+HISTORIES = {
+    "sticks": (scene(PRESS, push(0.1)), {"stick": 9.0}, True),
+    "narrow": (scene(PRESS, push(0.1)), {"stick": 9.0, "annulus": 0.05}, True),
+    "resolved": (scene(PRESS, push(0.1)), {"stick": 9.0, "annulus": 0.2}, False),
+    "slides": (scene(PRESS, push(0.1)), {"stick": None}, False),
+    "twisted": (scene(PRESS, {"twist": 1e-5}), {"stick": 9.0}, True),
+    "after a push": (scene(PRESS, push(0.1), push(0.0)), {"stick": 9.0}, True),
+    "unlike": (scene(PRESS, body=steel(0.1)), {"stick": 9.0}, True),
+    "pressed": (scene(PRESS, {"normal_force": LOAD / 2}), {"stick": 9.0}, False),
+    "growing": (scene({**PRESS, **push(0.1)}), {"stick": 9.0}, False),
+    "rim": (scene(PRESS, push(0.1), indenter=INDENTERS["flat punch"]), {"stick": 9.0}, False),
+    "frictionless": (scene(PRESS, body=steel(0.1), friction=None), {"stick": 9.0}, False),
+}
+
+
+@pytest.mark.parametrize("name", ["dissipated_energy", "energy_per_cycle", "torque"])
+@pytest.mark.parametrize(("history", "features", "hidden"), HISTORIES.values(), ids=HISTORIES)
+def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(
+    history, features, hidden, name
+) -> None:
+    """Slip at the edge of a smooth contact may be narrower than a cell; torque needs no slip."""
+    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
+    end = {one: np.ones(1) for one in names} | {name: np.zeros(1)}
+    steps = [end] * len(history.loading)
+    cells = Comparison("cells", steps, steps, [2.0] * len(steps))
+    known = [Features(10, **features)] * len(steps)
+    run = SolvedRun(
+        history, steps, [1e-8] * len(steps), known, [cells], {"cells": [True] * len(steps)}, {}
+    )
+    *_, errors = run.errors()
+    assert errors[name].error == (None if hidden and name != "torque" else 0.0)
 
 
 @pytest.mark.parametrize(
@@ -167,7 +216,7 @@ def test_components_of_a_vector_share_one_size() -> None:
         ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
         ("tangential_shift", {"stick": 0.0, "annulus": 9.0}, False),
         ("tangential_shift", {"stick": 0.0, "annulus": 9.0, "slides": True}, True),
-        ("tangential_shift", {"stick": 0.0, "annulus": 0.0}, False),
+        ("dissipated_energy", {"stick": 0.0, "annulus": 0.0}, False),
         ("dissipated_energy", {"stick": 9.0, "annulus": 0.0}, False),
         ("peak_pressure", {"stick": 0.0}, True),
         ("peak_pressure", {"stick": 0.0, "cusp": True}, False),

@@ -26,12 +26,14 @@ from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_friction import solve_increment
+from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import (
     Loads,
     PointState,
 )
+from radial.tangential.tangential_steps import TangentialSteps
 
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
 # of a ball with R = 1 and E* = 1: a = 1/100
@@ -111,6 +113,28 @@ def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
                 one.pressure,
                 atol=1e-9 * one.peak_pressure,
             )
+
+
+@pytest.mark.parametrize(
+    ("circle", "vector"), [(RingAngles.HALF, (0.8, 0.0)), (RingAngles.WHOLE, (0.8, -0.6))]
+)
+def test_a_vector_that_is_the_same_everywhere_remains_so_between_points(
+    circle: RingAngles, vector: tuple[float, float]
+) -> None:
+    """On the axis as well, where all angles have one vector; splines of 8 angles err by 1e-3."""
+    asked = scene()
+    found = create_points(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
+
+    def components(angles: np.ndarray) -> np.ndarray:
+        cos, sin = np.cos(angles), np.sin(angles)
+        return np.stack([np.dot(vector, (cos, sin)), np.dot(vector, (-sin, cos))])
+
+    at_points = np.tile(components(found.angles), len(found.radii))
+    expected = components(found.output_angles)
+    for one, other in zip(
+        TangentialSteps._interpolate_vector(found, at_points), expected, strict=True
+    ):
+        assert_allclose(one, np.broadcast_to(other, one.shape), atol=2e-3)
 
 
 TOLERANCE = 1e-9

@@ -16,6 +16,8 @@ from matplotlib.figure import Figure
 from small_result import small_errors, small_result
 
 from contact_results.directory.file_names import PAGE, SUMMARY
+from contact_results.figures.map_panels import PANEL, MapFrame
+from contact_results.figures.maps import field_map
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
 from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style
@@ -120,3 +122,14 @@ def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, t
     across = re.findall(r"background-position:(\d+)%", page)
     assert across == [f"{100 * n // (columns - 1)}" for n in (*range(columns), *range(columns - 1))]
     assert page.count("data:image") == 1
+
+
+def test_a_map_fills_its_panel_whatever_the_size_of_the_contact() -> None:
+    report = ResultReport.of(small_result())
+    frame = MapFrame.around_contact(report)
+    assert frame is not None
+    with figure_style():
+        figure: Any = field_map(report, frame, "pressure")
+        figure.draw_without_rendering()
+        drawn = figure.get_size_inches() * figure.axes[2].get_position().size
+    assert np.max(drawn) == pytest.approx(PANEL, rel=0.2)  # labels take the rest

@@ -35,8 +35,13 @@ OF = {
 """Powers of length and of stress."""
 
 
-def pushed(way: Any, pose: Any, angle: float, length: float, stress: float) -> Any:
-    """The end of a contact of revolution that is pushed to and fro along a line."""
+TO_AND_FRO = (1.0, -0.5)
+
+
+def pushed(
+    way: Any, pose: Any, angle: float, length: float, stress: float, parts: Any = TO_AND_FRO
+) -> Any:
+    """The end of a contact of revolution that is pushed along a line by parts of a force."""
     push, rigid, film = pose
     force = 1e3 * stress * length**2
 
@@ -53,7 +58,7 @@ def pushed(way: Any, pose: Any, angle: float, length: float, stress: float) -> A
         indenter=Paraboloid(radius=0.018 * length, material=RIGID if rigid else material(1.0)),
         body=Body(material=material(1.0), layers=films),
         friction=CoulombFriction(coefficient=0.1),
-        loading=(LoadStep(normal_force=force, increments=2), step(1.0), step(-0.5)),
+        loading=(LoadStep(normal_force=force, increments=2), *map(step, parts)),
     )
     if way == "radial":
         return radial.solve(scene).steps[-1]
@@ -87,3 +92,11 @@ def test_no_direction_and_no_unit_counts(way: Any, seed: int) -> None:
     # On cells a turned load turns the field.
     found, expected = (np.sort(end.pressure, axis=None) for end in (here, there))
     assert np.max(np.abs(found / stress - expected)) <= within * expected[-1]
+
+
+@pytest.mark.parametrize("way", ["radial", "semi-analytical", *Method])
+def test_nothing_sticks_at_the_friction_limit_of_the_softest_bodies(way: Any) -> None:
+    """The peak pressure is 1 mPa."""
+    end = pushed(way, (1.0, False, 0.0), 0.0, 1.0, 1e-12, (1.0,))
+    assert end.stick_area == 0
+    assert not np.any(end.in_stick)

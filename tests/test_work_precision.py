@@ -18,8 +18,10 @@ from verification.running.cold_cache import cold_cache
 from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
 from verification.studies.work_precision import (
     CONTACTS,
+    OWN,
     STUDY,
     TARGETS,
+    Method,
     Point,
     PrecisionCase,
     cases,
@@ -104,6 +106,17 @@ def test_good_settings_pass_and_poor_or_lost_ones_fail() -> None:
     assert concluded(lost=1).statements[0].outcome is Status.FAIL
     nothing = STUDY.conclude(SETTINGS, {}).statements
     assert [s.outcome for s in nothing[:2]] == [Status.FAIL, Status.FAIL]
+
+
+@pytest.mark.parametrize(("contact", "error"), [("cattaneo", "shear"), ("coated", "pressure")])
+@pytest.mark.parametrize("method", Method)
+def test_tractions_are_judged_by_what_each_method_states(
+    method: Method, contact: str, error: str
+) -> None:
+    """On 32 cells, 16 elements and the rings of the radial solver they err by less than 4 %."""
+    fineness = {Method.SURFACE: 32, Method.EDGES: 32, Method.RADIAL: OWN}.get(method, 16)
+    case = PrecisionCase(contact, method, fineness, penalty=10.0 * (method is Method.PENALTY))
+    assert 0 < case.solved.errors_of(case._solve_contact())[error] < 0.04
 
 
 def test_a_measurement_starts_from_an_empty_cache(

@@ -84,6 +84,19 @@ def address() -> Iterator[str]:
         yield local.scheduler_address
 
 
+def test_cluster_is_not_the_default_of_other_programs(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=1, processes=False, protocol="tcp", dashboard_address=None
+    ) as local:
+        pool = ClusterWorkers(local.scheduler_address)
+        with pytest.raises(ValueError, match="No global client"):
+            distributed.get_client()
+        (end,) = run_cases((Square(2.0),), CaseStore(tmp_path, Number), pool, lambda end: None)
+    assert isinstance(end.record, Number)
+    assert end.record.value == 4.0
+
+
 @pytest.mark.slow
 def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
     cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
