@@ -215,15 +215,8 @@ class _Galerkin:
 
 @cache_within_bytes(MAX_CACHED)
 def _check_point_functions(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Evaluate Legendre polynomials and cosines at points where the contact equation is checked.
-
-    The results are the even polynomials P_2n(t), shape (points, count), and cos κt, shape (points,
-    κ). The points t are evenly spaced between the axis (0) and the contact edge (1). The results
-    are cached.
-
-    waves  quadrature over dimensionless wavenumbers κ
-    count  number of polynomials
-    """
+    """Evaluate P_2n(t) (points, count) and cos κt (points, κ) at the points,
+    evenly spaced between axis and edge, where the contact equation is checked."""
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)
     return polynomials, np.cos(np.multiply.outer(t, waves.rule[0]))
