@@ -184,13 +184,8 @@ class AdjacentCells:
 
 
 def _step_to_edge(here: Quadratic) -> tuple[Field, Field]:
-    """Move points towards the edge of a region, where φ = 0, by one Newton step of at most one
-    cell.
-
-    The step is along the gradient of φ. The results are the new coordinates x and y.
-
-    here  quadratics of φ expanded about the present points
-    """
+    """Move points towards φ = 0 along its gradient by one Newton step of at most a cell:
+    new x and y."""
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
     step = step * np.minimum(1.0, LONGEST_STEP / np.maximum(np.abs(step) * here.slope, 1e-30))
