@@ -537,8 +537,7 @@ def targets_of(
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:
-    """Return the reason why a request cannot apply to an absent, infinite or zero scalar; else
-    ""."""
+    """Return the reason against a request for an absent, infinite or zero scalar; else ""."""
     if not any(name in step for step in level.stated.steps):
         return "the results of this scene by this solver do not contain it"
     if name == PEAK and any(features.infinite for features in level.run.features):

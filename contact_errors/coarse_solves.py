@@ -344,8 +344,7 @@ def compare_with_limit(
 
 
 def _solver_work(found: Any) -> Mapping[str, int]:
-    """Sum iterations and convolutions of all increments; absent if the solver does not count
-    them."""
+    """Sum iterations and convolutions of all increments, if the solver counts them."""
     names = ("iterations", "convolutions")
     return {
         name: sum(getattr(increment, name) for increment in found.increments)

@@ -277,8 +277,8 @@ class CoulombFriction(Description):
         return np.asarray(self._at(where) * pressure)
 
     def _at(self, where: Where) -> float | Field:
-        """Return µ of the cells selected by an index, such as a mask; one number if µ is
-        uniform."""
+        """Return µ of selected cells, or one number if µ is uniform. `where` is a mask or an
+        index."""
         mu = self.coefficient
         if not isinstance(mu, FrictionMap):
             return mu

@@ -99,6 +99,5 @@ class LinearisedShear:
         return np.asarray(free - self._change_of_forces(forces))
 
     def _change_of_forces(self, forces: Vector) -> Vector:
-        """Return the combination of the carriers (size,)
-        that changes the prescribed forces by `forces`."""
+        """Return the combination of carriers (size,) that changes the forces by `forces`."""
         return np.einsum("k,ki->i", self._shares @ forces, self.carriers)

@@ -238,7 +238,6 @@ def unresolved_pressure(result: Result) -> float:
 
 
 def _map_coordinates(count: int, spacing: float, within: Field) -> Field:
-    """Return the coordinates of the height-map points along one axis within the contact
-    [length]."""
+    """Return coordinates [length] of map points on an axis within the contact."""
     points = (np.arange(count) - (count - 1) / 2) * spacing
     return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -155,8 +155,7 @@ def locate_keys(document: str) -> dict[Path, int]:
 
 
 def _record_keys(table: Path, keys: list[str], line: int, lines: dict[Path, int]) -> Path:
-    """Record the line of dotted keys `a.b` of a table in `lines`, and return the path of the
-    last."""
+    """Record the line of dotted keys `a.b` of a table in `lines`, and return the last path."""
     for key in keys:
         table = (*table, key)
         lines.setdefault(table, line)

@@ -186,8 +186,7 @@ class SurfaceTractions:
 
     @property
     def _least_element_count(self) -> float:
-        """Least number of elements with pressure on any ray;
-        too few do not locate the contact edge."""
+        """Least number of elements with pressure on a ray, which must resolve the edge."""
         return float(np.min(np.count_nonzero(self._ray_pressures > 0, axis=0)) / self._per_element)
 
     @property

@@ -1,6 +1,6 @@
 """Tractions on rings, and the response of half-spaces to them.
 
-Tractions are hat functions (linear between nodes) in x = r/a, times the factor √(1-x²), which is
+Tractions are hat functions φ (linear between nodes) in x = r/a, times the factor √(1-x²), which is
 the behaviour of tractions at the edge. An element is the interval between two nodes. The nodes are
 dense where tractions have kinks: at the border of the stick zone, at the edge and at the axis. The
 response of half-spaces to a hat has a closed form or uses Gauss quadrature. Lengths are in units of
@@ -98,10 +98,9 @@ class Rings:
         """Direct responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
-        radial shear, ∫ G₁ φ s ds. φ is the hat function of a node. The kernel G_m = ∫₀^∞ J_m(kx)
-        J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals (Gradshteyn and
-        Ryzhik 6.512.1, 8.1). Rows are positions x of displacements, columns nodes of tractions.
-        Lengths are in units of the contact radius.
+        radial shear, ∫ G₁ φ s ds. The kernel G_m = ∫₀^∞ J_m(kx) J_m(ks) dk is logarithmic at s = x
+        and has complete elliptic integrals (Gradshteyn and Ryzhik 6.512.1, 8.1). Rows are positions
+        x of displacements, columns nodes of tractions.
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
@@ -132,9 +131,9 @@ class Rings:
         """Coupling responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
-        pressure, (1/x) ∫₀ˣ φ s ds. φ is the hat function of a node. The kernel ∫₀^∞ J₀(kr) J₁(ks)
-        dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of
-        displacements, columns nodes of tractions. Lengths are in units of the contact radius.
+        pressure, (1/x) ∫₀ˣ φ s ds. The kernel ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0
+        (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of displacements, columns nodes of
+        tractions.
         """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]

@@ -130,12 +130,7 @@ class Disc:
         return np.asarray(self.approach - self.profile.evaluate_abel(t) + changed)
 
     def abel_function_rate(self, t: Array) -> Array:
-        """Evaluate the rate dG/dt of the function G of which the pressure is the Abel transform.
-
-            p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
-
-        p is the pressure at the radius a x, E* the contact modulus, a the contact radius. The unit
-        of the rate is [length].
+        """Evaluate the rate dG/dt of the function G of `evaluate_abel_function` [length].
 
         t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """

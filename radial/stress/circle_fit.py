@@ -63,9 +63,6 @@ def axisymmetric_circle(
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
 
-    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
-    centre over the radius. It is used to compute the stress below the surface.
-
     radii               radii of the rings (n,) [length]
     radius              contact radius [length]
     outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the rings (n,)
@@ -89,9 +86,8 @@ def fit_tangential_circle(
 ) -> LoadedCircle:
     """Fit a loaded circle to the pressure and shear of a contact with tangential load.
 
-    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
-    centre over the radius. It is used to compute the stress below the surface. Its normal force is
-    that of the nodal pressures. The angles cover 0 to π, and the other half is the mirror image.
+    Its normal force is that of the nodal pressures. The angles cover 0 to π, and the other half is
+    the mirror image.
 
     radii               radii of the nodes (n,) [length]
     angles              angles from 0 to π (J + 1,) [radian]

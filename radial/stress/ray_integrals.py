@@ -64,8 +64,8 @@ def below_circle(
 
 
 def _count_intervals(smallest: Array) -> Array:
-    """Return the number of intervals, not rounded,
-    that grow in constant ratio from `smallest` to 1."""
+    """Return the number, not rounded, of intervals growing from `smallest` to 1 in constant
+    ratio."""
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 

@@ -94,8 +94,7 @@ def _force_reaches_limit(friction: CoulombFriction, loads: Loads) -> bool:
 
 
 def _prescribed_shear_loads(loads: Loads) -> Array:
-    """Return tangential forces along and across θ = 0, and torque (3,);
-    0 where the motion is prescribed."""
+    """Return forces along and across θ = 0, and torque (3,); 0 where the motion is prescribed."""
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 

@@ -105,8 +105,7 @@ class ContactPoints:
         return self._distribute_to_points(self.arms)
 
     def _distribute_to_points(self, of_nodes: Array) -> Array:
-        """Give each point of a ring an equal share of 2π times the integral of its node (n,):
-        (n count,)."""
+        """Give the points (n count,) equal shares of 2π times the integral of a node (n,)."""
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property

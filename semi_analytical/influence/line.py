@@ -108,6 +108,5 @@ def _odd_part(x: Array, t: float) -> Array:
 
 
 def _long_waves(material: HalfSpace | None) -> Array:
-    """Compute the wavenumber times the surface compliances of a half-space (4,); 0 if it is
-    rigid."""
+    """Compute the wavenumber times the surface compliances of a half-space (4,)."""
     return np.zeros(4) if material is None else np.array(half_space_scalars(material, 1.0))

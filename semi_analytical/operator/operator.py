@@ -255,8 +255,7 @@ class DisplacementOperator:
         return ApproximateInverse(self.transforms, spectra)
 
     def _inverse_normal(self) -> Field:
-        """Invert the spectrum of the influence coefficients without zero padding,
-        at each wavenumber."""
+        """Invert the spectrum of the influence coefficients without zero padding."""
         return positive_inverse(self.spectrum("zz").quarter[::2, ::2])
 
     def _inverse_tangential(self) -> dict[str, Field]:

@@ -265,8 +265,7 @@ def _stick_cells(pressure: Field, shear: Field) -> Mask:
 
 
 def _set_on_edge(phi: Quadratic) -> Quadratic:
-    """Set φ, the squared pressure, to exactly zero at edge points, where it is zero up to
-    rounding."""
+    """Set φ, the squared pressure, to exactly zero at edge points: it is zero up to rounding."""
     return replace(phi, f=np.zeros_like(phi.f))
 
 
