@@ -312,7 +312,7 @@ def _between(point: Point, other: Point, part: float) -> Point:
 
 def _decreases_energy(point: Point, target: Point, g: Vector) -> bool:
     """Return True if the energy decreases by at least 10 % of
-    the decrease by its slope, which is the gap g (Armijo)."""
+    its decrease by the gradient, the gap g (Armijo's condition)."""
     d, d_u = target.tractions - point.tractions, target.displacements - point.displacements
     slope = inner(d, g)
     return bool(slope + 0.5 * inner(d, d_u) <= LEAST_FALL * slope)

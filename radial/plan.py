@@ -1,7 +1,8 @@
 """Plan of a solve: physical effects of a scene, numbers of increments, and unsupported scenes.
 
 The checks of unsupported scenes raise UnsupportedScene before the solve. A solve at points on rings
-treats a tangential load, or torsion without a closed form.
+treats a tangential load, or torsion without a closed form. `frictional` is true if friction acts
+under a normal load alone.
 """
 
 from __future__ import annotations
@@ -183,8 +184,8 @@ def _path_increments(
 
 
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
-    """Raise UnsupportedScene for a friction map, unless axisymmetric and at points,
-    and for friction below a rim, unless torsion in closed form."""
+    """Raise UnsupportedScene for µ that varies, except with the radius in a solve at points,
+    and for friction below a rim, except for torsion in closed form."""
     assert scene.friction is not None
     refuse_coefficient_map(scene, symmetric=circle is not None)
     if scene.indenter.rim is not None and (frictional or circle):

@@ -286,7 +286,7 @@ class CellSolver(DiscretisedSolver):
 
 def _fits_stick(plan: Plan, report: EdgeReport | None) -> bool:
     """Return true if the edge of the stick zone is fitted within cells, by the edge correction or,
-    for coupled bodies, `stick_area`. The fit converges with order 1 only in torsion."""
+    for coupled bodies, `stick_area`. In torsion the errors of that fit converge with order 1."""
     if plan.coupling is not Coupling.NONE:
         return not plan.torsion
     return report is not None and report.stick is not None

@@ -99,7 +99,7 @@ def _load_scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
 
 
 def _rounded_loads(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
-    """Return the loads at the end of a step relative to the scales and
+    """Return the loads at the end of a step relative to their scales,
     rounded to `DIGITS` decimals, so that equal loads compare equal."""
     return tuple(
         (kind, tuple(round(value / (scales[kind] or 1.0), DIGITS) for value in values))

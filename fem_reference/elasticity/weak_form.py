@@ -129,7 +129,7 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Compute the volume strains projected onto 3 orthonormal linear functions of each
+    """Compute projections of volume strains onto 3 orthonormal linear functions of an
     element (e, 9 c, 3), which prevents locking of nearly incompressible materials."""
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
     return np.asarray(
@@ -147,8 +147,7 @@ def _linear_functions(basis: Basis) -> Field:
 
 
 def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
-    """Transform 1, r and z at q points to functions of
-    each element (e, 3, q), orthonormal with weight r."""
+    """Transform 1, r and z at q points to orthonormal functions with the weight r (e, 3, q)."""
     functions = _linear_functions(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))

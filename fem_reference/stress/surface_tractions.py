@@ -207,8 +207,7 @@ class SurfaceTractions:
 
     @cached_property
     def _edge_radii(self) -> Field:
-        """Radius of the contact edge on every ray (angles,) [length], resolved between the
-        rings."""
+        """Radius of the contact edge, resolved between rings, on every ray (angles,) [length]."""
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
             element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])

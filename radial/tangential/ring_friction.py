@@ -83,8 +83,7 @@ def solve_increment(
 
 
 def _force_reaches_limit(friction: CoulombFriction, loads: Loads) -> bool:
-    """Return True for a tangential force at the friction limit; raise GrossSliding above the
-    limit."""
+    """Return True for a force at the friction limit; raise GrossSliding above the limit."""
     force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.largest_tangential_force(W)
     if not force or most is None or not reaches_limit(force, most):

@@ -211,8 +211,7 @@ class TangentialSteps(StepsOnRings):
         return along * x - across * y, along * y + across * x
 
     def _load_components(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Rotate x and y components to those along and across the load; both None without a
-        vector."""
+        """Rotate x and y components to those along and across the load; None without a vector."""
         if vector is None:
             return None, None
         (x, y), (of_x, of_y) = self.direction, vector

@@ -200,8 +200,8 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Solve mean^(1/a) = target for f, with the mean of (f + b x + c y)^a over a
-    cell without a zero line. Each fixed-point iteration divides the error by 200."""
+    """Solve mean^(1/a) = target for f: the mean of (f + b x + c y)^a over a cell
+    without a zero line. Each fixed-point iteration divides the error by 200."""
     f, terms = target, _series_terms(b, c, a)
     for _ in range(FIXED_POINT_STEPS):
         f = target / power(_sum_series(1 / f**2, *terms), np.divide(1, a))

@@ -268,8 +268,8 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
 
 
 def _load_work(before: Configuration, after: Configuration) -> float | None:
-    """Compute Σ ½ (f₀ + f₁)(ω₁ - ω₀) of the forces and moments f and
-    their motions ω [force length]; None where a motion is undefined."""
+    """Compute Σ ½ (f₀ + f₁)(ω₁ - ω₀) [force length] of the forces and
+    moments f with their motions ω; None where a motion is undefined."""
     if before.motions is None or after.motions is None:
         return None
     return float(np.sum(0.5 * (before.forces + after.forces) * (after.motions - before.motions)))

@@ -234,8 +234,8 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _mean_at_nearest_cells(values: Field, known: Mask, wanted: Mask) -> Field:
-    """Compute for each wanted cell the mean of a field over
-    the nearest known cells (wanted,), which have equal weight."""
+    """Compute the mean of a field over the nearest known
+    cells of each wanted cell (wanted,), with equal weights."""
     at, to, data, means = np.argwhere(known), np.argwhere(wanted), values[known], []
     for some in np.array_split(to, 1 + len(to) * len(at) // PAIRS):
         squared = np.sum((some[:, None] - at) ** 2, axis=-1)

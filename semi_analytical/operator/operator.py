@@ -48,8 +48,8 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _sort_factors(lines: Field, one: int, other: int) -> Field:
-    """Sort factors like amplitudes: two per wavenumber without a mirror plane (parity 0); the
-    largest wavenumber of sine transforms is in the place of 0, where factors to cosines vanish."""
+    """Sort factors like amplitudes: two per wavenumber without a mirror plane (parity 0);
+    sine transforms have the largest in the place of 0, where factors to cosines vanish."""
     if one == 0:
         return np.repeat(lines, 2, axis=0)
     if one == other == -1:

@@ -229,8 +229,8 @@ def _half_space_coefficients(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """Compute 3 displacements and 6 stresses at offsets >= 0 by unit tractions on one
-    surface cell (9, tractions, nx, ny), in a half-space of the material at the depth."""
+    """Compute 3 displacements and 6 stresses by unit tractions on a cell (9, tractions, nx, ny),
+    at offsets >= 0 in a half-space of the material at the depth."""
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     return half_space_response(x, y, level.depth, material_at(stack, level), sheared=sheared)

@@ -256,8 +256,7 @@ def near_edge(
 
 
 def _stick_cells(pressure: Field, shear: Field) -> Mask:
-    """Return a mask (nx, ny) of cells with a ratio of
-    shear to pressure below SLIPPING of the largest."""
+    """Return a mask (nx, ny) of cells with shear over pressure below SLIPPING of its maximum."""
     region = pressure > 0
     size = np.hypot(*shear)
     ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)

@@ -228,8 +228,8 @@ def layered_coefficients(
 
 
 def _point_response(table: RadialTable, x: Field, y: Field) -> Field:
-    """Compute 3 displacements and 6 stresses at points of one depth by each
-    unit force at the origin of the surface (9 times tractions, *x.shape)."""
+    """Compute 3 displacements and 6 stresses at points of one depth (9 times tractions, *x.shape),
+    by each unit force at the origin of the surface."""
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish
     functions = table(r.ravel()).reshape(-1, *x.shape)
