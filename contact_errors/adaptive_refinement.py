@@ -537,13 +537,7 @@ def targets_of(
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:
-    """Return the reason why an accuracy request cannot apply to a scalar; empty text if it can.
-
-    The scalar may be absent from the result, infinite, or zero throughout.
-
-    name   name of the scalar
-    level  first level of the refinement
-    """
+    """Return the reason against a request for an absent, infinite or zero scalar; else ""."""
     if not any(name in step for step in level.stated.steps):
         return "the results of this scene by this solver do not contain it"
     if name == PEAK and any(features.infinite for features in level.run.features):

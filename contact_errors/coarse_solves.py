@@ -265,12 +265,7 @@ def _references(solver: DiscretisedSolver) -> Sequence[Sequence[Values]]:
 def _all_known(
     scene: Scene, values: Sequence[Values], references: Sequence[Sequence[Values]]
 ) -> bool:
-    """Return true if all scalars of a result are prescribed or known by another method.
-
-    scene       solved scene
-    values      scalars of the result at the end of each load step, by name
-    references  scalars by other methods, one sequence for each method
-    """
+    """Return true if all scalars of a result are prescribed or known by another method."""
     return bool(references) and all(
         here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig)
         for ramp, here, known in zip(scene.load_path(), values, references[0], strict=True)
@@ -349,13 +344,7 @@ def compare_with_limit(
 
 
 def _solver_work(found: Any) -> Mapping[str, int]:
-    """Sum the iterations and the convolutions of all increments of a coarse solve, by name.
-
-    The numbers are stored in the record of the solve. Numbers that the solver does not count are
-    absent.
-
-    found  result of the solve
-    """
+    """Sum iterations and convolutions of all increments, if the solver counts them."""
     names = ("iterations", "convolutions")
     return {
         name: sum(getattr(increment, name) for increment in found.increments)

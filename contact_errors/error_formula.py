@@ -339,10 +339,8 @@ class SolvedRun:
         return build_stated_error(parts, reason)
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
-        """Return the largest difference of a scalar from other methods; None if they lack it.
-
-        It is also None if the exact value is infinite.
-        """
+        """Return the largest difference of a scalar from other methods;
+        None if they lack it or it is infinite."""
         if name == PEAK and self.features[step].infinite:
             return None
         here = self.values[step][name]
@@ -369,10 +367,7 @@ class SolvedRun:
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
-        """Largest absolute value of each scalar from the start of the history, for each load step.
-
-        Error estimates are compared with this value, because a scalar may pass through zero.
-        """
+        """Largest absolute values so far, the scale of errors: a scalar may pass through zero."""
         return largest_so_far(self.values)
 
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | str:
@@ -464,10 +459,5 @@ def unknown_error(reason: str) -> StatedError:
 
 
 def _error_amount(size: Numbers, count: int) -> Amount:
-    """Convert the error of a scalar from an array to a float, or to two floats for a vector.
-
-    size   error of the components, (1,) or (count,)
-    count  number of components of the scalar, 1 or 2
-    """
     parts = np.broadcast_to(size, count)
     return float(parts[0]) if count == 1 else (float(parts[0]), float(parts[1]))

@@ -80,12 +80,7 @@ def pressing_alone(scene: Scene) -> Scene | None:
 
 
 def _by_rings(alone: Scene) -> list[list[Mapping[str, float]]]:
-    """Compute the scalars of the pressing by the radial solver, with each fineness.
-
-    The result is empty if the solver refuses the scene.
-
-    alone  scene of the pressing alone
-    """
+    """Compute scalars by the radial solver with each fineness; empty if it refuses the scene."""
     try:
         plan = radial.plan(alone)
         return [

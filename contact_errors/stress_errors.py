@@ -255,9 +255,7 @@ def _stated(
 ) -> StatedError:
     """Build the stated error of a stress, with the parts that the errors of the tractions cause.
 
-    state   bodies and surface tractions with their relative errors
     part    name of the part by the cells, elements or points
-    value   stress [force/length^2]
     size    size of this part [force/length^2]
     reason  reason why the error is unreliable, or None
     """
@@ -271,14 +269,10 @@ def _stated(
 
 
 def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[Key, float]]:
-    """Find the largest stresses near the surface and, separately, those below.
+    """Find the largest stresses near the surface (True) and below the depth `near` (False).
 
     The two places have different convergence orders. There is one value for each region of the body
-    and each stress measure. Points near the surface include the fitted contact edge. The values
-    near the surface are returned with the key True, those below with the key False.
-
-    field  stress field
-    near   depth that divides the points [length]
+    and each stress measure. Points near the surface include the fitted contact edge.
     """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
@@ -293,14 +287,9 @@ def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
     """Estimate how much the largest stress exceeds the value found at discrete depths.
 
-    The stress is computed at discrete depths (levels) only, and its maximum may lie between two of
-    them. A parabola is drawn through the largest values on three levels. The error is twice the
+    A parabola is drawn through the largest values on three depths (levels). The error is twice the
     excess of its maximum over the largest stress found. The factor 2 accounts for the third-order
     terms that a parabola omits. The error is 0 on an interface and at the end of a material.
-
-    points   points of the stress field
-    values   stress measure at the points (…) [force/length^2]
-    extreme  largest stress found
     """
     here = (points.depth == extreme.depth) & (values == extreme.value)
     inside = points.material == points.material.flat[int(np.argmax(here))]
@@ -315,27 +304,14 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
 
 
 def _error_per_spread(order: float) -> float:
-    """Return the error of a stress over its difference from that of coarse tractions.
-
-    With the coarsening factor r = 2 and the theoretical convergence order p, it is the larger of
-
-    - 3 / √(r^(2p) + 1), the formula of all scalars for errors that scatter, and
-    - 1 / (r^p - 1), for errors that decrease as a power; it is larger below the order 1.
-
-    order  convergence order p of the stress
-    """
+    """Return the larger of two errors over the difference from coarse tractions, r = 2, order p:
+    3/√(r^(2p) + 1) if errors scatter, 1/(r^p - 1) if they decrease as a power."""
     scattered = SPREADS / sqrt(COARSE ** (2 * order) + 1)
     return float(max(scattered, 1 / (COARSE**order - 1)))
 
 
 def _traction_cell_width(state: LoadedBodies) -> float:
-    """Compute the width along x of the cells that carry the surface tractions [length].
-
-    For tractions on rings the mean width of a ring is returned. Used to express depths and contact
-    radii in cells.
-
-    state  bodies and surface tractions on cells or rings
-    """
+    """Compute the width of cells along x, or the mean width of a ring [length]."""
     places = next(iter(state.axes.values()))
     return float(places[-1] - places[0]) / (len(places) - 1)
 

@@ -207,21 +207,11 @@ def _fretting_cycle(
 
 
 def _change_over_cycle(start: Value | None, end: Value | None) -> Value | None:
-    """Return the change of a cumulative quantity over a load cycle, end minus start.
-
-    Returns None if either value is None.
-    """
     return None if start is None or end is None else end - start
 
 
 def _vectors_along_path(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
-    """Yield the x and y components (2, …) of shear or slip at the end of each increment.
-
-    Increments without this vector are skipped.
-
-    path  increments of a load cycle
-    name  "shear" or "slip"
-    """
+    """Yield the components (2, …) of "shear" or "slip" of the increments that have them."""
     return (found for i in path if (found := surface.vector(i, name)) is not None)
 
 

@@ -74,12 +74,8 @@ def _warn_of_gross_slip(result: Result) -> Iterator[str]:
 
 
 def _warn_of_first_cycle(result: Result) -> Iterator[str]:
-    """Yield a warning about the first load cycle, which starts from virgin surfaces.
-
-    This cycle may dissipate several times the energy of later cycles. There is no warning without
-    load cycles, or if the state at the end of the cycle does not depend on the number of
-    increments.
-    """
+    """Warn that the first cycle may dissipate several times the energy of later ones,
+    unless its end does not depend on the increments."""
     path = result.scene.load_path()
     cycles = load_cycles(path)
     if cycles and has_increment_error(result.scene)[cycles[0].end - 1]:
@@ -92,10 +88,7 @@ def _warn_of_first_cycle(result: Result) -> Iterator[str]:
 
 
 def _warn_of_roughness(result: semi_analytical.Result) -> Iterator[str]:
-    """Yield a warning if the cells do not resolve the roughness of the height map.
-
-    The warning states the pressure that would flatten the unresolved roughness.
-    """
+    """Warn of unresolved roughness, with the pressure that would flatten it."""
     from semi_analytical.resolution import unresolved_pressure
 
     share, indenter = unresolved_pressure(result), result.scene.indenter

@@ -163,11 +163,7 @@ def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
 
 
 def _entry_header(key: str, body: bytes) -> bytes:
-    """Build the header of a file in the disk cache: format, key of the array and checksum.
-
-    key   hash of the data that determine the array
-    body  numbers of the array in bytes, from which the checksum is computed
-    """
+    """Build the header of a cache file: format, key of the array and checksum of its bytes."""
     return FIRST_LINE + f"{key}\n{sha256(body).hexdigest()}\n".encode()
 
 

@@ -46,7 +46,7 @@ def layers(scene: Scene) -> Effect:
     """Describe the effect of the layers of both bodies, for the plan of a solve.
 
     The effect acts if a body of the scene has layers. The reason states the number of layers of
-    each body. The plan lists the effects that the solve computes.
+    each body.
 
     scene  contact problem with its two bodies
     """
@@ -67,8 +67,7 @@ def layers(scene: Scene) -> Effect:
 def friction(scene: Scene) -> Effect:
     """Describe the effect of friction, for the plan of a solve.
 
-    The effect acts if the scene has a friction law. The plan lists the effects that the solve
-    computes.
+    The effect acts if the scene has a friction law.
 
     scene  contact problem with its friction law
     """
@@ -80,7 +79,7 @@ def strained(scene: Scene) -> Effect:
     """Describe the effect of a bulk strain of the lower body, for the plan of a solve.
 
     The effect acts if a load step prescribes a bulk strain, which is uniform and parallel to the
-    surface. The plan lists the effects that the solve computes.
+    surface.
 
     scene  contact problem with its load steps
     """

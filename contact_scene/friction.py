@@ -103,10 +103,8 @@ class FrictionMap(Description):
 
     @cached_property
     def _means(self) -> tuple[Field, Field]:
-        """Radii of circles about the origin, and the mean of the interpolated map on each.
-
-        The circles are at most a spacing of the map apart, the last one is at `reach`.
-        """
+        """Radii of circles about the origin, to `reach` and at most a spacing of the map apart,
+        and the mean of the interpolated map on each."""
         radii = np.linspace(0.0, self.reach, ceil(self.reach / min(self.spacing)) + 1)
         angles = 2 * np.pi * (np.arange(ANGLES) + 0.5) / ANGLES
         x, y = np.multiply.outer((np.cos(angles), np.sin(angles)), radii)
@@ -279,12 +277,8 @@ class CoulombFriction(Description):
         return np.asarray(self._at(where) * pressure)
 
     def _at(self, where: Where) -> float | Field:
-        """Return the coefficient of friction of the selected cells of the surface.
-
-        The result is one number if the coefficient is uniform.
-
-        where  index of the cells in the arrays of the friction map, such as a mask of the contact
-        """
+        """Return µ of selected cells, or one number if µ is uniform. `where` is a mask or an
+        index."""
         mu = self.coefficient
         if not isinstance(mu, FrictionMap):
             return mu

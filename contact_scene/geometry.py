@@ -515,18 +515,8 @@ class HeightMap(ShapedBody):
 def _interpolated_surface(
     file: ArrayFile, unit: float, flip: bool
 ) -> tuple[Gap, float, float, Pair]:
-    """Compute the heights of a height map and the minimum of their interpolated surface.
-
-    The surface is interpolated between the points of the map. Its minimum is the point of first
-    contact.
-
-    file     measured values, with NaN at points without a measurement
-    unit     factor of the values to SI [length]
-    flip     True if the values are positive towards the body
-    returns  heights without NaN (nx, ny) [length]; lowest height [length]; minimum of the
-             interpolated surface minus the lowest height, not positive [length]; position of this
-             minimum in indices of points
-    """
+    """Compute heights without NaN (nx, ny), the lowest one, and the minimum of their
+    interpolated surface (first contact) minus the lowest [length], with its position in indices."""
     factor = -unit if flip else unit
     heights = file.values if factor == 1.0 else factor * file.values
     heights = fill_missing_heights(heights)
@@ -652,15 +642,8 @@ class RevolvedProfile(ShapedBody):
 def _interpolated_profile(
     file: ArrayFile, radius_unit: float, height_unit: float, flip: bool
 ) -> Profile:
-    """Create the profile of an indenter from its table.
-
-    The table has its columns along either index, from the axis outwards or reversed.
-
-    file         table of radii and heights
-    radius_unit  factor of the radii to SI [length]
-    height_unit  factor of the heights to SI [length]
-    flip         True if the heights are positive towards the body
-    """
+    """Create a profile from a table of radii and heights along either index, in either order.
+    `flip` means heights positive towards the body."""
     radii, heights = file.values if file.shape[0] == 2 else file.values.T
     order = slice(None, None, -1 if radii[0] > radii[-1] else 1)
     sign = -1.0 if flip else 1.0
@@ -689,24 +672,15 @@ class LineShape(ShapedBody):
         return True
 
     def _force_ratio(self, a: float) -> float:
-        """Compute W/E* of a contact of half width a on half-spaces [length].
-
-        W = E* a ∫₀^(π/2) sin φ f'(a sin φ) dφ with the slope f' (Johnson 1985, section 2.7). The
-        shape is taken as symmetric about x = 0.
-
-        a  half width of the contact [length]
-        """
+        """Compute W/E* = a ∫₀^(π/2) sin φ f'(a sin φ) dφ of half-spaces [length]
+        (Johnson 1985, section 2.7), for a shape f that is symmetric about x = 0."""
         points, weights = np.polynomial.legendre.leggauss(_ANGLES)
         t = a * (sine := np.sin(math.pi / 4 * (1.0 + points)))
         rise = self.initial_gap(t * (1.0 + _NEAR), 0.0) - self.initial_gap(t * (1.0 - _NEAR), 0.0)
         return float(math.pi / 4 * a * weights @ (sine * rise / (2.0 * _NEAR * t)))
 
     def _half_width(self, load: Callable[[float], float], value: float) -> float:
-        """Find the half width of the contact at which a load has a value, by bisection [length].
-
-        load   load as a function of the half width
-        value  value of the load
-        """
+        """Find the half width at which an increasing load has a value, by bisection [length]."""
         low, high = _HALF_WIDTHS
         for _ in range(_BISECTIONS):
             middle = math.sqrt(low * high)
@@ -898,13 +872,8 @@ class LineProfile(LineShape):
 def _interpolated_plane_profile(
     file: ArrayFile, x_unit: float, height_unit: float, flip: bool
 ) -> PlaneProfile:
-    """Create the profile of a line contact from its table, with its columns along either index.
-
-    file         table of coordinates and heights
-    x_unit       factor of the coordinates to SI [length]
-    height_unit  factor of the heights to SI [length]
-    flip         True if the heights are positive towards the body
-    """
+    """Create a profile from a table of coordinates and heights along either index.
+    `flip` means heights positive towards the body."""
     x, z = file.values if file.shape[0] == 2 else file.values.T
     order, sign = slice(None, None, -1 if x[0] > x[-1] else 1), -1.0 if flip else 1.0
     return PlaneProfile(x_unit * x[order], sign * height_unit * z[order])
@@ -940,13 +909,8 @@ def nearest_shape(written: Any) -> str:
 
 
 def _indenter_tag(value: Any) -> str:
-    """Return the tag that selects the class of indenter for the validation of a scene.
-
-    A table with a misspelt shape is validated by the class of the most similar shape, so that all
-    its other mistakes are found as well.
-
-    value  table of the indenter as written, or an indenter
-    """
+    """Return the tag of the class that validates an indenter:
+    the most similar one for a misspelt shape, so that all other mistakes are found as well."""
     shape = value.get("shape") if isinstance(value, dict) else getattr(value, "shape", None)
     return f"<{nearest_shape(shape)}>"
 

@@ -51,12 +51,7 @@ HeightUnit = Annotated[
 
 
 def _is_name(value: Any) -> bool:
-    """Determine if a value is the name of a unit alone, such as "um", instead of a quantity.
-
-    Used for the unit of the heights of a height map.
-
-    value  value as written in the scene
-    """
+    """Determine if a value is the name of a unit alone, such as "um", instead of a quantity."""
     return isinstance(value, str) and value[:1].isalpha()
 
 
@@ -172,14 +167,8 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
 def _rows_with_neighbours(
     heights: NDArray[np.float64], begin: int, end: int
 ) -> NDArray[np.float64]:
-    """Return a block of rows of a height map, with two more rows or columns on every side.
-
-    The interpolation between the points of the block needs the added values. They are those of the
-    map, or extrapolated beyond the outermost points.
-
-    heights     heights at the points, (nx, ny) [length]
-    begin, end  first and last row of the block
-    """
+    """Return rows of a height map with two more rows or columns on every side,
+    extrapolated beyond the outermost points, for the interpolation between points."""
     first = max(begin - 3, 0)  # extrapolation takes three rows
     padded = _extrapolate_rows(_extrapolate_rows(heights[first : end + 4]).T).T
     return np.asarray(padded[begin - first + 1 : end - first + 6, 1:-1])
@@ -219,13 +208,12 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 
 
 def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
-    """Select the patches of an interpolated height map that can contain values below a limit.
+    """Select patches of an interpolated height map that can contain values below a limit.
 
-    A patch is the surface between four adjacent points. Its lower bound follows from the 4 x 4
-    values around it.
+    A patch is the surface between four points. Its lower bound follows from the 4 x 4 values around
+    it.
 
     padded   heights with one more value beyond the outermost points on every side [length]
-    limit    limit of the lower bound [length]
     returns  centres of at most `_MAX_PATCHES` patches with the lowest bounds, in indices of points,
              (count, 2)
     """
@@ -380,13 +368,10 @@ def _locate_between_points(
 
 
 def _extrapolate_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extrapolate a height map beyond its outermost rows, for the interpolation at its boundary.
+    """Extrapolate heights (n, m) beyond the outermost rows (n + 6, m), for the interpolation.
 
-    Three rows are added before the first and after the last row. The extrapolation in each column
-    is a parabola through three rows, and a line if there are two rows.
-
-    rows     heights (n, m)
-    returns  extended heights (n + 6, m)
+    The extrapolation in each column is a parabola through three rows, and a line if there are two
+    rows.
     """
     before, after = ([*each] for each in (rows[2::-1], rows[-3:]))
     for outwards in (before, after):

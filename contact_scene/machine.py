@@ -59,11 +59,8 @@ def one_thread() -> Iterator[None]:
 
 @lru_cache(maxsize=1)
 def _threaded_libraries(_imported: int) -> ThreadpoolController:
-    """Find the loaded libraries whose threads can be limited (BLAS, OpenMP).
-
-    The result is cached until another module is imported, because only an import loads libraries.
-    The argument is the number of imported modules, the key of the cache.
-    """
+    """Find the loaded libraries with threads (BLAS, OpenMP). The number of imported
+    modules is the key of the cache, because only an import loads libraries."""
     return ThreadpoolController()
 
 

@@ -104,10 +104,8 @@ def project_trial(
 
 
 def _forces_in_equilibrium(free: RigidMotions, gamma: float) -> tuple[Vector, Vector]:
-    """Return the forces (k,) that free motions require, and the stiffness of springs over γ (k,).
-
-    Without a spring they are the prescribed force and 0.
-    """
+    """Return the forces (k,) that free motions require, and the stiffness of springs over γ (k,);
+    without a spring, the prescribed force and 0."""
     forces = [one.value / one.spring if one.force is None else one.force for one in free.each]
     stiffness = [1 / (gamma * one.spring) if one.force is None else 0.0 for one in free.each]
     return np.array(forces), np.array(stiffness)

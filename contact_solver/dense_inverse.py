@@ -87,11 +87,7 @@ def inverse_on(matrix: Matrix, contact: Mask) -> Map:
 
 
 def _free_rows(matrix: Matrix, zones: Zones) -> Matrix:
-    """Restrict the rows of a matrix to the free unknowns in zones.
-
-    matrix  rows for the components (q_x, q_y, p) of n points (3 n, k)
-    zones   zones of an iterate
-    """
+    """Restrict rows for the components q_x, q_y, p of n points (3 n, k) to the free unknowns."""
     n, stick, slip = zones.contact.size, zones.stick_points, zones.slip
     t_x, t_y = zones.tangent[:, :, None]
     across = t_x * matrix[slip] + t_y * matrix[n + slip]

@@ -98,12 +98,8 @@ def _turns_then_newton(
     *,
     turns: int,
 ) -> CoupledSolution:
-    """Solve a coupled increment by Newton's method from the result of a few alternating turns.
-
-    If the loads are at the friction limit then, gross slip is solved instead.
-
-    turns  number of turns
-    """
+    """Solve by Newton's method, or gross slip if the loads
+    are at the friction limit, from a few alternating turns."""
     pressure, shear, motion, spent = alternate(problem, pressure, shear, motion, tolerance, turns)
     slides = problem.exhausts_friction(problem.friction_limit(pressure))
     method: Method = solve_gross_slip if slides else solve_by_newton

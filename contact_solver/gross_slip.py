@@ -99,14 +99,11 @@ def limit_load(held: RigidMotions, bound: Vector, enough: float = np.inf) -> tup
 
 
 def _friction_power(velocity: Vector, limit: Vector, units: MotionShapes) -> Power:
-    """Compute the power of friction in gross slip, with its gradient and Hessian.
+    """Compute the power of friction Σ (limit times speed) with its gradient and Hessian.
 
-    The power is the sum over the points of friction limit times sliding speed. The limit load
-    minimises this power over the rigid motions of the indenter.
+    The limit load minimises this power over the rigid motions of the indenter.
 
     velocity  rigid motion, as components along the unit motions (k,)
-    limit     friction limit of the loaded points (n,)
-    units     free rigid motions of the loaded points
     """
     speed = units.displacement(velocity)
     size = _blunt_size(speed, limit)
@@ -117,14 +114,8 @@ def _friction_power(velocity: Vector, limit: Vector, units: MotionShapes) -> Pow
 
 
 def _blunt_size(speed: VectorField, limit: Vector) -> Vector:
-    """Compute the sliding speed of each point, smoothed near the centre of rotation.
-
-    At this centre, the pole of the rigid motion, the speed is zero and its derivative does not
-    exist.
-
-    speed  sliding velocity of the points (2, n), or (2, 1) for a shift
-    limit  friction limit of the points (n,); only points with friction define the largest speed
-    """
+    """Compute the speed of the points (n,), smoothed near the centre of rotation,
+    where its derivative does not exist. Points with friction define the largest speed."""
     size = magnitude(speed)
     return np.hypot(size, BLUNT * np.max(size * (limit > 0)))
 
@@ -134,12 +125,8 @@ def _descend(
 ) -> tuple[Vector, Power]:
     """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
 
-    The steps minimise the power of friction to find the limit load of gross slip. Return the
-    accepted position and its power with gradient and Hessian.
-
-    power_at     function from a position to the power of friction, its gradient and its Hessian
-    x, step      position (free components of the rigid motion) and Newton step
-    power, fall  power at x, and its decrease predicted by the gradient
+    Return the accepted position with its power, gradient and Hessian. `fall` is the decrease that
+    the gradient predicts.
     """
     part = 1.0
     while True:

@@ -95,13 +95,9 @@ def least_residual(
 
 
 def _orthogonalise(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
-    """Compute the components of a vector along an orthonormal basis, and the orthogonal remainder.
+    """Compute the components of v (n,) along orthonormal rows (k, n), and the orthogonal remainder.
 
-    GMRES builds its basis with this function. Gram-Schmidt orthogonalisation is repeated once if
-    the remainder is small.
-
-    v      vector (n,)
-    basis  orthonormal rows (k, n)
+    Gram-Schmidt orthogonalisation is repeated once if the remainder is small.
     """
     components = np.einsum("ik,k->i", basis, v)
     remainder = v - np.einsum("i,ik->k", components, basis)

@@ -92,19 +92,12 @@ class LinearisedShear:
         return Point(base.tractions + zones.field(change), base.displacements + u), iterations
 
     def _precondition(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to a residual, and correct the result to zero prescribed forces.
-
-        The conjugate gradients then keep the forces of the shear constant.
-
-        rows  residual, one row per free unknown [length]
-        """
+        """Apply the preconditioner, and correct the result to zero prescribed forces,
+        which conjugate gradients then keep constant."""
         free = self._inverse(rows[None])[0]
         forces = np.einsum("ki,i->k", self._units, free)
         return np.asarray(free - self._change_of_forces(forces))
 
     def _change_of_forces(self, forces: Vector) -> Vector:
-        """Return a combination of the carriers (size,) that changes the prescribed forces.
-
-        forces  change of the forces (k,)
-        """
+        """Return the combination of carriers (size,) that changes the forces by `forces`."""
         return np.einsum("k,ki->i", self._shares @ forces, self.carriers)

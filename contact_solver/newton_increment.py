@@ -95,14 +95,8 @@ def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
 
 
 def _shear_rounding(problem: CoupledProblem, at: NewtonIterate) -> float:
-    """Return the part of the error of the shear that the round-off of displacements explains.
-
-    The natural map multiplies displacements by γ. With little friction on a stiff film, the
-    round-off of the displacement by the pressure is then comparable to the friction limit.
-
-    problem  operators, loads and friction law of the increment
-    at       iterate
-    """
+    """Return the error of the shear by the round-off of displacements, which the natural map
+    multiplies by γ. It is comparable to the friction limit for little friction on a stiff film."""
     moved = np.sum(magnitude(at.point.displacements[:2]) * at.natural.contact)
     rounding = ROUNDINGS * np.finfo(np.float64).eps * problem.gamma * moved
     return float(rounding / np.sum(at.natural.bound))

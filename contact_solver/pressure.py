@@ -311,13 +311,8 @@ def _between(point: Point, other: Point, part: float) -> Point:
 
 
 def _decreases_energy(point: Point, target: Point, g: Vector) -> bool:
-    """Return True if a change of the pressure decreases the elastic contact energy sufficiently.
-
-    The criterion is Armijo's condition: the decrease is at least 10 % of the decrease by the slope.
-
-    point, target  pressure with displacement before and after the change
-    g              gap before the change (n,), the gradient of the energy
-    """
+    """Return True if the energy decreases by at least 10 % of
+    its decrease by the gradient, the gap g (Armijo's condition)."""
     d, d_u = target.tractions - point.tractions, target.displacements - point.displacements
     slope = inner(d, g)
     return bool(slope + 0.5 * inner(d, d_u) <= LEAST_FALL * slope)

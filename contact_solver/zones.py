@@ -155,11 +155,7 @@ class Zones:
         return v
 
     def _add_slip_components(self, v: Field, along: Vector) -> Field:
-        """Add given components along the slip direction in slipping points to a field, in place.
-
-        v      field (3, n), such as tractions
-        along  components along the slip direction n (points,)
-        """
+        """Add components along n in slipping points to the tractions (3, n), in place."""
         for one, normal in zip(v[:2], self.normal, strict=True):
             one[self.slip] += normal * along
         return v

@@ -298,10 +298,8 @@ class ElementSolver(DiscretisedSolver):
 
     @property
     def _section_power(self) -> float:
-        """Power of the size of the section that counts as its refinement factor.
-
-        The error formula assumes an error like 1/L². In plane strain it is like 1/L.
-        """
+        """Power of the section size L in the refinement factor:
+        the error formula assumes 1/L², but the error in plane strain is like 1/L."""
         return 0.5 if self.scene.indenter.is_line else 1.0
 
     @cached_property

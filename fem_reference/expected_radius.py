@@ -100,28 +100,16 @@ def expected_radius(scene: Scene) -> float:
 
 
 def _largest_ramps(scene: Scene) -> list[LoadRamp]:
-    """Return the load steps with the largest normal load, for the estimate of the contact radius.
-
-    The list contains the load ramp with the largest final force, if force control occurs in the
-    history, and the load ramp with the largest final approach, if approach control occurs. A load
-    ramp is the linear change of the loads in one load step.
-
-    scene  contact problem with its load history
-    """
+    """Return the ramp with the largest final force,
+    and that with the largest final approach, if any."""
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
     return [max(same, key=lambda ramp: ramp.normal.end) for same in kinds if same]
 
 
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Estimate the contact radius at the end of a load step from the outermost materials [length].
-
-    Each body is treated as a half-space of its outermost material. The deeper layers and the
-    substrate are neglected. Used to recognise thick layers, and as the estimate for them.
-
-    scene  contact problem with its bodies
-    ramp   linear change of the loads in the load step
-    """
+    """Estimate the contact radius of half-spaces of the outermost materials [length],
+    which is accurate for thick layers."""
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
         if body.layers
@@ -160,11 +148,8 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _mean_compliance(body: Body) -> float:
-    """Compute the mean of (1-ν²)/E over the layers and the substrate of a body [length^2/force].
-
-    Used as the compliance of a half-space that replaces the layered body in a first estimate. Each
-    material has the same weight. The mean is 0 for a rigid body.
-    """
+    """Compute the unweighted mean of (1-ν²)/E over layers and substrate [length^2/force];
+    0 if rigid."""
     parts = body.elastic_materials
     return sum(1 / part.plane_strain_modulus for part in parts) / max(1, len(parts))
 

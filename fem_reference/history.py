@@ -97,9 +97,7 @@ class _IncrementSolver(Solver[PointState, Increment]):
     ) -> PointState:
         """Solve for the contact state at a given fraction of a load ramp.
 
-        A load ramp is the linear change of the prescribed loads in one load step.
-
-        ramp      loads at the start and the end of the load step
+        ramp      loads at the start and the end of the load step, linear in between
         start     contact state at the start of the ramp; None at the start of the history
         before    contact state at the end of the previous increment; None at the start of the
                   history
@@ -116,8 +114,8 @@ class _IncrementSolver(Solver[PointState, Increment]):
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].
 
-        Used for increments in which the bodies are separated. A ring is a circle around the axis.
-        The array has the shape of the gap of the increment `last`: (rings,) or (rings, angles).
+        Used for increments in which the bodies are separated. The array has the shape of the gap of
+        the increment `last`: (rings,) or (rings, angles).
 
         last  increment whose rings are used
         tilt  not used, since this solver does not tilt the indenter
@@ -155,14 +153,8 @@ class _IncrementSolver(Solver[PointState, Increment]):
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float
     ) -> TangentialTarget:
-        """Return the tangential loads or motions that a load ramp prescribes at a given fraction.
-
-        Motions that the path of the solve excludes stay zero.
-
-        ramp      linear change of the loads in the load step
-        start     contact state at the start of the ramp; None at the start of the history
-        fraction  part of the ramp, from 0 to 1
-        """
+        """Return the prescribed tangential loads or motions;
+        motions that the path excludes are zero."""
         loads, motions = list(STILL.loads), list(STILL.motions)
         for motion, control in self._controls(ramp).items():
             reached: tuple[float, float | None] = (0.0, 0.0)

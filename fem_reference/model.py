@@ -179,15 +179,8 @@ class ContactModel:
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _spring_compliance(self, of: Motion) -> Field:
-        """Compute the displacement of the indenter by the springs of the test rig, per force.
-
-        The springs are in series with the contact and displace all surface nodes equally. The
-        result (c, c) contains the displacement components per nodal force on each of the c
-        components [length/force]. It is zero for loadings without a spring. In plane strain the
-        motion of the surface by the reference length of the scene is added, which is uniform too.
-
-        of  displacement field of one angular harmonic, such as that of normal loading
-        """
+        """Compute the uniform displacement by springs of the rig per nodal force (c, c)
+        [length/force]; in plane strain with the motion by the reference length of the scene."""
         down, along = (own + self._reference_compliance() for own in compliances(self.scene.rig))
         moved = {PRESSING: down, LINE_PRESSING: down, SHEARING: along, LINE_SHEARING: along}
         compliance = moved.get(of, 0.0)
@@ -214,11 +207,8 @@ def _create_section(
 ) -> SectionMesh | None:
     """Create the mesh of the meridional section of a body, or return None for a rigid body.
 
-    The discretisation selects the mesher: tensor-product rectangles, or gmsh.
-
-    body            layers and substrate in units of the expected contact radius
-    discretisation  number of elements per radius, outer radius of the mesh, and mesher
-    plane           True for a body in plane strain
+    body   layers and substrate in units of the expected contact radius
+    plane  True for a body in plane strain
     """
     if not body.deforms:
         return None

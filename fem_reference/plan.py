@@ -205,15 +205,8 @@ def _path_matters(scene: Scene, path: Path, couples: bool) -> tuple[bool, ...]:
 
 
 def _increment_counts(scene: Scene, path: Path, matters: tuple[bool, ...]) -> tuple[int, ...]:
-    """Determine the number of increments of each load step of a scene.
-
-    The number is the one that the scene requests, if there is one. Otherwise it is the larger of
-    two numbers: one for the path dependence of friction, and one for closed load cycles.
-
-    scene    contact problem with its load history
-    path     tractions that the solve computes
-    matters  for each load step, True if its final state depends on the number of increments
-    """
+    """Return the requested number of increments of each load step, else the larger of two:
+    for the path dependence of friction, and for closed load cycles."""
     ramps = scene.load_path()
     loops = loop_increments(ramps) if scene.friction else (1,) * len(ramps)
     return tuple(
@@ -223,16 +216,8 @@ def _increment_counts(scene: Scene, path: Path, matters: tuple[bool, ...]) -> tu
 
 
 def _path_increments(scene: Scene, path: Path, ramp: LoadRamp) -> int:
-    """Determine the number of increments of a path-dependent load step.
-
-    The final state of such a step depends on the number. The error of the shear by finite
-    increments is about 1 %. If only the tangential force changes, each increment is at most the
-    part LARGEST_SHARE of the friction limit.
-
-    scene  contact problem with its friction
-    path   tractions that the solve computes
-    ramp   linear change of the loads in the load step
-    """
+    """Return the number of increments for a shear error of about 1 %,
+    or for steps of LARGEST_SHARE of the friction limit if only the tangential force changes."""
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
     if pressing or _twists(path, ramp):
         return PATH_INCREMENTS
@@ -245,15 +230,6 @@ def _twists(path: Path, ramp: LoadRamp) -> bool:
 
 
 def _list_effects(scene: Scene, path: Path, loads: AxisymmetricLoads) -> tuple[Effect, ...]:
-    """Return the list of physical effects of a scene, each with the reason for or against it.
-
-    An effect is a part of the problem, such as friction or torsion. Each item states whether the
-    solve computes the effect, and the reason. The list is printed for the user.
-
-    scene  contact problem
-    path   tractions that the solve computes
-    loads  loads of the scene and the causes of shear
-    """
     return (
         effect.PRESSURE,
         effect.second_body(scene),

@@ -38,10 +38,6 @@ class Scales:
         return Body(material=material, layers=layers)
 
     def _scale_material(self, material: IsotropicMaterial) -> IsotropicMaterial:
-        """Return a copy of an elastic material with Young's modulus in the unit of stress.
-
-        Used to make the stiffness matrix of a body dimensionless.
-        """
         return IsotropicMaterial(
             young_modulus=material.young_modulus / self.modulus,
             poisson_ratio=material.poisson_ratio,

@@ -115,15 +115,6 @@ def _create_method(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Create the contact method of a solve: exact or penalty enforcement of the contact laws.
-
-    The contact method solves the increments of the scene.
-
-    model           the two bodies with their meshes, compliances, undeformed gap and friction
-    chosen_plan     tractions that the solve computes, and numbers of increments
-    discretisation  parameters of the penalty law, and number of angular harmonics
-    method          requested enforcement, exact or penalty
-    """
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(
@@ -136,14 +127,7 @@ def _create_method(
 def _count_factorisations(
     model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Yield the increments of a load history with the number of sparse factorisations of each.
-
-    The number counts the factorisations of the stiffness since the previous increment. Each
-    increment comes with its resume point, from which an interrupted solve continues.
-
-    model    model of the bodies, which counts its factorisations
-    history  increments with their resume points
-    """
+    """Add to each increment the number of sparse factorisations since the previous one."""
     counted = 0
     for increment, point in history:
         spent, counted = model.factorizations - counted, model.factorizations

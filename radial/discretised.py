@@ -196,10 +196,7 @@ class RingSolver(DiscretisedSolver):
 
 
 def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
-    """Return the text of the numbers of rings and angles of the radial solver.
-
-    Without friction, the rings are only points of output.
-    """
+    """Return the text of rings and angles; without friction, rings are only points of output."""
     if plan.circle:
         angles = "" if plan.circle is RingAngles.ONE else f", times {plan.angles} angles"
         return f"{plan.rings} over the contact, denser at its edge{angles}"

@@ -1,6 +1,8 @@
 """Plan of a solve: physical effects of a scene, numbers of increments, and unsupported scenes.
 
-The checks of unsupported scenes raise UnsupportedScene before the solve.
+The checks of unsupported scenes raise UnsupportedScene before the solve. A solve at points on rings
+treats a tangential load, or torsion without a closed form. `frictional` is true if friction acts
+under a normal load alone.
 """
 
 from __future__ import annotations
@@ -75,28 +77,17 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Number of rings inside the largest contact, for a solve at points on rings.
-
-        A solve at points on rings treats a tangential load or torsion. The number does not include
-        the dense rings at contact edges.
-        """
+        """Number of rings inside the largest contact, without the dense rings at contact edges."""
         return round(self.fineness * (ROUND_RINGS if self.circle is RingAngles.ONE else RINGS))
 
     @property
     def highest(self) -> int:
-        """Highest angular harmonic of pressure and shear in a solve at points on rings.
-
-        A solve at points on rings treats a tangential load or torsion.
-        """
+        """Highest angular harmonic of pressure and shear in a solve at points on rings."""
         return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
-        """Number of angles on a ring, for a solve at points on rings.
-
-        A solve at points on rings treats a tangential load or torsion. The number is 0 without such
-        a solve.
-        """
+        """Number of angles on a ring; 0 without a solve at points on rings."""
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
@@ -152,17 +143,10 @@ def plan(scene: Scene) -> Plan:
 def _choose_circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
 ) -> RingAngles | None:
-    """Choose the angles on a ring at which a contact with tangential load or torsion is solved.
+    """Choose the angles of a ring; None if no solve at points is necessary.
 
-    A tangential load needs half a circle, or a full one if it changes direction or acts together
-    with torsion. Torsion alone needs one angle, unless its shear has a closed form. The result is
-    None if no solve at points (rings × angles) is necessary.
-
-    scene       contact problem with its load history
-    frictional  true if friction acts under a normal load alone
-    twists      true with torsion
-    pushed      true with a tangential load
-    curved      true if the tangential loads are not on one line
+    A tangential load needs half a circle, or a full one if it is `curved` (not on one line) or acts
+    together with torsion. Torsion alone needs one angle, unless its shear has a closed form.
     """
     if pushed:
         return RingAngles.WHOLE if twists or curved else RingAngles.HALF
@@ -181,16 +165,10 @@ def _path_increments(
 ) -> int:
     """Return the number of increments that the path dependence of friction requires in a load step.
 
-    Without a solve at points (rings × angles), a load step is path-dependent if friction acts while
-    the normal load or the bulk strain changes. With such a solve, the number is fixed if the normal
-    load or the twist changes, or if displacements are prescribed. Otherwise the number is
-    proportional to the change of the tangential force over the friction limit. It is 1 if no load
-    changes.
-
-    scene       contact problem
-    ramp        load step
-    circle      angles of a solve at points; None without such a solve
-    frictional  true if friction acts under a normal load alone
+    Without a solve at points, a step is path-dependent if friction acts while the normal load or
+    the bulk strain changes. With such a solve, the number is fixed if the normal load or the twist
+    changes, or if displacements are prescribed, and otherwise proportional to the change of the
+    tangential force over the friction limit.
     """
     presses = ramp.normal.start != ramp.normal.end
     if circle is None:
@@ -206,15 +184,8 @@ def _path_increments(
 
 
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
-    """Raise UnsupportedScene if the solver does not support the friction of a scene.
-
-    A coefficient of friction that varies with the distance from the axis is supported at points on
-    rings. Friction below an indenter with a rim is supported only for torsion in closed form.
-
-    scene       contact problem with friction
-    frictional  true if friction acts under a normal load alone
-    circle      angles of a solve at points; None without such a solve
-    """
+    """Raise UnsupportedScene for µ that varies, except with the radius in a solve at points,
+    and for friction below a rim, except for torsion in closed form."""
     assert scene.friction is not None
     refuse_coefficient_map(scene, symmetric=circle is not None)
     if scene.indenter.rim is not None and (frictional or circle):

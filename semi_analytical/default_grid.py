@@ -141,13 +141,8 @@ def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
 
 
 def _within_maps(scene: Scene, window: Pair) -> Pair:
-    """Reduce the sides of a window to the extent of the maps of a scene [length].
-
-    These are the height map of the indenter, the profile of a line contact, and the map of the
-    coefficient of friction.
-
-    window  sides of the window along x and y [length]
-    """
+    """Reduce the sides of a window [length] to the extent of height map,
+    line profile and friction map."""
     known = [scene.indenter.extent, scene.friction.extent if scene.friction else None]
     if scene.indenter.is_line:
         known.append((2 * scene.indenter.known_radius, np.inf))
@@ -219,13 +214,8 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
 
 
 def _contact_cells(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
-    """Find the cells in contact under a normal load without friction, on the full window (nx, ny).
-
-    No cell is marked where the contact is too small for the grid.
-
-    model  contact model on a coarse grid
-    load   prescribed normal load
-    """
+    """Find the cells in frictionless contact on the full window (nx, ny);
+    none if the grid is too coarse."""
     try:
         return model.domain.extend(press(model, load, SCOUT_TOLERANCE).pressure > 0)
     except ContactNotResolved:
@@ -233,11 +223,8 @@ def _contact_cells(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]
 
 
 def _contact_extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
-    """Compute the sides of the smallest window about the origin that contains given cells [length].
-
-    contact  cells in contact (nx, ny)
-    grid     grid of the cells
-    """
+    """Compute the sides of the smallest window about the origin that contains the cells
+    [length]."""
     x, y = grid.coordinates()
     return (
         2 * float(np.max(np.abs(x[contact]))) + grid.spacing[0],

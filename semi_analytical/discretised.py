@@ -285,27 +285,16 @@ class CellSolver(DiscretisedSolver):
 
 
 def _fits_stick(plan: Plan, report: EdgeReport | None) -> bool:
-    """Return true if the edge of the stick zone is fitted within the cells.
-
-    The edge correction fits it for uncoupled bodies, and `stick_area` for coupled ones. In torsion
-    the errors of that fit converge with the order 1 only.
-
-    plan    plan of the result
-    report  outcome of the edge correction; None if it failed
-    """
+    """Return true if the edge of the stick zone is fitted within cells, by the edge correction or,
+    for coupled bodies, `stick_area`. In torsion the errors of that fit converge with order 1."""
     if plan.coupling is not Coupling.NONE:
         return not plan.torsion
     return report is not None and report.stick is not None
 
 
 def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
-    """Return the relative errors of scalars, by name, that remain after the edge correction.
-
-    The edge correction computes the pressure at the contact edge with subcell resolution. Its
-    iteration stops at a finite error.
-
-    report  outcome of the edge correction at the end of a load step
-    """
+    """Return the relative errors of scalars, by name,
+    from the error at which the edge correction stops."""
     stick = report.stick or report.radius  # without a border of stick it is that of the contact
     return {
         **dict.fromkeys(MOTIONS, report.response),
@@ -318,12 +307,8 @@ def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
 
 
 def _distance_of_peak_to_edge(end: Increment) -> float:
-    """Compute the distance of the cell with the largest pressure from the contact edge, in cells.
-
-    A pressure maximum near the edge converges with a lower order than a maximum in the middle.
-
-    end  state at the end of a load step
-    """
+    """Compute the distance of the largest pressure from the contact edge, in cells.
+    A maximum near the edge converges with a lower order."""
     place = np.unravel_index(np.argmax(end.pressure), end.pressure.shape)
     offsets = np.argwhere(~end.in_contact) - place
     return float(np.sqrt(np.min(np.sum(offsets**2, axis=1))))
@@ -335,8 +320,6 @@ def _may_hide_stick(end: Increment) -> bool:
     It is possible if the smallest slip increment of a cell is at most half of the largest slip
     increment of the adjacent cells. Error estimates of slip are then unreliable. It is impossible
     at the friction limit under force control, where the slip is undefined.
-
-    end  state at the end of a load step
     """
     if end.slip_increment is None:
         return False

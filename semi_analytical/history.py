@@ -85,13 +85,8 @@ def solve_history(
 
 
 def _increment_solver(plan: Plan) -> Advance:
-    """Return the function that solves one increment, for uncoupled or for coupled bodies.
-
-    The coupling is that of the normal and tangential problems. Solvers that are not required are
-    not imported.
-
-    plan  physical effects to compute
-    """
+    """Return the solver of one increment for the coupling;
+    a solver that is not required is not imported."""
     if plan.coupling is Coupling.NONE:
         return solve_increment
     from semi_analytical.coupled.coupled_increment import solve_coupled_increment
@@ -100,12 +95,6 @@ def _increment_solver(plan: Plan) -> Advance:
 
 
 def _edge_correction(model: ContactModel, plan: Plan) -> Correct | None:
-    """Return the edge correction that is applied to solved states; None if the plan excludes it.
-
-    The edge correction accounts for contact edges inside cells.
-
-    model, plan  contact model, and physical effects to compute
-    """
     if plan.edge == "off":
         return None
     from semi_analytical.edge_correction.correction import EdgeCorrection

@@ -159,10 +159,8 @@ class _LoadStep:
 
     @property
     def _only_normal_load_grows(self) -> bool:
-        """True if only the normal load changes in the load step, and does not decrease.
-
-        No slip occurs in such a step if the bodies are uncoupled.
-        """
+        """True if only the normal load changes, and does not decrease.
+        Uncoupled bodies then do not slip."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
         return grows and tilting.start == tilting.end and not self._changes_tangential_load
@@ -251,10 +249,8 @@ class _LoadStep:
 
     @property
     def _pressing_change(self) -> float:
-        """Change of the normal load in the load step over its larger value; 1 if unknown.
-
-        The increment error under a changing normal load is proportional to this ratio.
-        """
+        """Change of the normal load over its larger value,
+        to which the increment error is proportional; 1 if unknown."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0

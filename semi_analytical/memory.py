@@ -73,11 +73,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Return the ratio of the cells of the solved domain to the cells of the window.
-
-    With mirror planes, the domain is a half or a quarter of the window. Without mirror planes, the
-    ratio is 1. Used to count the arrays in memory.
-    """
+    """Return the cells of the solved domain over those of the window."""
     return 1 / plan.symmetry.images if grid.even else 1.0
 
 

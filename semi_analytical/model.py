@@ -79,13 +79,7 @@ class ContactModel:
         return self.friction.slope(pressure, self._window_slices(first, pressure.shape))
 
     def _window_slices(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
-        """Return the slices that select a box of the reduced domain from arrays on the full window.
-
-        Used for a coefficient of friction that varies over the window.
-
-        first  indices of the first cell of the box in the reduced domain
-        shape  number of cells of the box along x and y
-        """
+        """Return the slices of the full window that contain a box of the reduced domain."""
         cells = zip(self.window.cells, self.grid.cells, first, strict=True)
         begins = (whole - n + i for whole, n, i in cells)
         x, y = (slice(i, i + count) for i, count in zip(begins, shape, strict=True))
@@ -242,15 +236,8 @@ def refine_field(values: Field) -> Field:
 
 
 def _modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
-    """Compute the modulus E* of the half-space that represents layered bodies [force/length^2].
-
-    Under a uniform pressure on a rectangle, the half-space has the same central displacement as the
-    bodies (Johnson 1985, eq. 3.25). The initial guess of the pressure uses E*.
-
-    compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets (i
-                dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
-    spacing     cell sides dx, dy [length]
-    """
+    """Compute E* [force/length^2] of the half-space with equal central displacement under a
+    uniform pressure on a rectangle (Johnson 1985, eq. 3.25), from compliances to half its sides."""
     at_middle = 4 * np.sum(compliance) - 2 * np.sum(compliance[0]) - 2 * np.sum(compliance[:, 0])
     a, b = ((2 * n - 1) * side for n, side in zip(compliance.shape, spacing, strict=True))
     mean_inverse_distance = 2 * (a * asinh(b / a) + b * asinh(a / b))

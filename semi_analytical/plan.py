@@ -170,15 +170,7 @@ def _tangentially_loaded(scene: Scene) -> bool:
 
 
 def _prescribed_effect(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
-    """Describe an effect that is on if the scene prescribes certain loads, such as tilt or torsion.
-
-    The description contains the reason.
-
-    name      name of the effect
-    on        True if such loads are prescribed
-    loads     name of the loads in the reason
-    friction  False if the effect needs friction and the scene has none
-    """
+    """Describe an effect that is on if load steps prescribe certain loads, with the reason."""
     if not friction:
         return Effect(name, False, "without friction the surfaces carry no shear")
     return Effect(name, on, f"{'a' if on else 'no'} load step prescribes {loads}")
@@ -267,13 +259,7 @@ def all_effects(plan: Plan) -> Plan:
 
 
 def _forced_effect(effect: Effect) -> Effect:
-    """Return the description of one effect for a plan in which all effects are computed.
-
-    Effects that the scene does not require are marked as forced on, a symmetry reduction as not
-    used.
-
-    effect  description of the effect in the plan that the scene requires
-    """
+    """Describe an effect of a plan that computes all effects and uses no symmetry reduction."""
     if effect.name == MIRROR_PLANES and effect.on:
         return replace(effect, on=False, why=f"not used, although {effect.why}")
     if effect.name not in COMPUTED or effect.on:

@@ -71,11 +71,7 @@ def resolution_at(result: Result, end: Increment) -> Resolution:
 
 
 def _contact_size(result: Result, end: Increment) -> float:
-    """Compute the smaller semi-axis of the contact at the end of a load step, in cells.
-
-    result  result of the semi-analytical solver
-    end     increment at the end of the load step
-    """
+    """Compute the smaller semi-axis of the contact, in cells."""
     return _semi_axis(end.in_contact, end.pressure, end.contact_area / result.grid.cell_area)
 
 
@@ -181,10 +177,8 @@ def _patches(marked: Mask) -> Indices:
 
 
 def _layer_cells(result: Result) -> float | None:
-    """Compute the thickness of the thinnest layer of both bodies, over the cell side.
-
-    The result is None without layers.
-    """
+    """Compute the thickness of the thinnest layer of both bodies over the cell side;
+    None without layers."""
     thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
     return thinnest / result.grid.cell_side if np.isfinite(thinnest) else None
 
@@ -244,11 +238,6 @@ def unresolved_pressure(result: Result) -> float:
 
 
 def _map_coordinates(count: int, spacing: float, within: Field) -> Field:
-    """Return the coordinates of the height-map points along one axis within the contact [length].
-
-    count    number of map points along the axis
-    spacing  distance of adjacent map points [length]
-    within   coordinates of the cells in contact along this axis [length]
-    """
+    """Return coordinates [length] of map points on an axis within the contact."""
     points = (np.arange(count) - (count - 1) / 2) * spacing
     return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -69,14 +69,8 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
 
 
 def _force_direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
-    """Return the direction in which the tangential force changes most in a load cycle.
-
-    The direction is a unit vector (2,). The change is counted from the start of the cycle. None is
-    returned if the force is constant.
-
-    path       increments of the cycle
-    cell_area  area of a cell [length^2]
-    """
+    """Return the unit vector (2,) along which the tangential force
+    changes most from the start of a cycle; None if the force is constant."""
     force = np.array([increment.tangential_force for increment in path])
     changes = force - force[0]
     sizes = np.hypot(changes[:, 0], changes[:, 1])
@@ -87,10 +81,7 @@ def _force_direction(path: Sequence[Increment], cell_area: float) -> Vector | No
 
 
 def _normal_stress_along(direction: Vector, stress: Field) -> Field:
-    """Compute the normal stress n·σ n along a direction n in the surface (nx, ny) [force/length^2].
-
-    direction  unit vector n (2,)
-    stress     in-plane components σ_xx, σ_yy, σ_xy (3, nx, ny)
-    """
+    """Compute n·σ n (nx, ny) of the in-plane stress σ_xx,
+    σ_yy, σ_xy (3, nx, ny) along a unit vector n."""
     (x, y), (xx, yy, xy) = direction, stress
     return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)

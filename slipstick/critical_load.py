@@ -363,10 +363,8 @@ class LoadFactorSearch:
 
 
 def _without_sizes(discretisation: Discretisation, scene: Scene) -> Any:
-    """Return a discretisation without the sizes of grid and mesh that belong to one load.
-
-    The window of a height map is a part of the surface, and is kept.
-    """
+    """Drop the sizes of grid and mesh that belong to one load.
+    The window of a height map is a part of the surface, and is kept."""
     if scene.indenter.extent is not None:
         return discretisation
     sizes = {"window", "contact_radius"} & type(discretisation).model_fields.keys()

@@ -207,10 +207,8 @@ class _Curves:
 
 
 def _residuals(numbers: Sequence[ComparedNumber]) -> Numbers:
-    """Return the differences of all curves, each relative to its largest measured value (n,).
-
-    Raises NothingToCompare for a curve of zeros.
-    """
+    """Return all differences over the largest measured value of their curve (n,).
+    Raise NothingToCompare for a curve of zeros."""
     if zero := [
         each.name for each in numbers if each.differences is not None and not each.measured
     ]:

@@ -122,10 +122,8 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
 
 
 def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
-    """Draw a colour map of a quantity, or of its medians, over two keys.
-
-    The title states the largest numerical error.
-    """
+    """Draw the medians as a colour map over two keys,
+    with the largest numerical error in the title."""
     middle, low, high = quantity.percentiles[:, 1]
     image = ax.pcolormesh(
         across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP

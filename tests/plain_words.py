@@ -78,3 +78,15 @@ def texts_of(path: Path) -> Iterable[tuple[int, str, str]]:
             text = "X".join(p for p in parts if isinstance(p, str))
             if len(text.split()) > 3:
                 yield line, "message", text
+
+
+def long_docstrings(path: Path) -> Iterable[tuple[int, str]]:
+    """Yield (line, name) of private functions of at most 5 statements with a docstring of more than
+    2 lines, which would outweigh the code."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.FunctionDef) or not re.match(r"_(?!_)", node.name):
+            continue
+        if text := ast.get_docstring(node):
+            statements = sum(isinstance(x, ast.stmt) for x in ast.walk(node)) - 2
+            if statements <= 5 and len(text.splitlines()) > 2:
+                yield node.lineno, node.name

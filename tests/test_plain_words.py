@@ -1,10 +1,10 @@
-"""Test of the English of each package: the share of texts with an unclear habit stays below a
-limit."""
+"""Tests of the English of each package: the share of texts with an unclear habit stays below a
+limit, and short private functions have short docstrings."""
 
 from pathlib import Path
 
 import pytest
-from plain_words import habits, texts_of
+from plain_words import habits, long_docstrings, texts_of
 
 ROOT = Path(__file__).resolve().parents[1]
 # Per cent of the texts. A limit may fall and never rises.
@@ -34,3 +34,13 @@ def test_few_texts_have_a_habit(package: str) -> None:
     marked = [f"{place}: {', '.join(words)}" for place, words in found if words]
     assert len(found) > 50
     assert 100 * len(marked) <= LIMITS[package] * len(found), "\n".join(marked)
+
+
+@pytest.mark.parametrize("package", sorted(LIMITS.keys() - {"verification", "docs"}))
+def test_short_private_functions_have_short_docstrings(package: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{line} {name}"
+        for path in sorted((ROOT / package).rglob("*.py"))
+        for line, name in long_docstrings(path)
+    ]
+    assert not found, "\n".join(found)

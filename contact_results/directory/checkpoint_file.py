@@ -159,11 +159,8 @@ class _Reader(pickle.Unpickler):
 
 
 def _is_storable(found: Any) -> bool:
-    """Return True if a checkpoint file may contain this class or function.
-
-    Allowed are frozen dataclasses that are not files, enumerations, the finite element settings,
-    and the functions of the module FAR_FIELDS.
-    """
+    """Return True for frozen dataclasses that are no files, enumerations,
+    the finite element settings, and functions of FAR_FIELDS."""
     if isinstance(found, type):
         frozen = getattr(getattr(found, "__dataclass_params__", None), "frozen", False)
         plain = frozen and not issubclass(found, StoredArray)

@@ -98,10 +98,7 @@ def _create_lock_file(path: Path, target: Path) -> int | None:
 
 
 def _open_lock_file(path: Path) -> int | None:
-    """Open or create a lock file and return its descriptor; None if that fails.
-
-    A file of another user is opened for reading only.
-    """
+    """Open or create a lock file; None if that fails. A file of another user is only read."""
     for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | os.O_NONBLOCK):
         with suppress(OSError):
             return os.open(path, access | os.O_NOFOLLOW, 0o666)
@@ -113,10 +110,7 @@ def _this_process() -> str:
 
 
 def _is_same_file(descriptor: int, path: Path) -> bool:
-    """Return True if `path` still refers to the open file with this descriptor.
-
-    The result is False if another process has removed or replaced the file.
-    """
+    """Return True unless another process has removed or replaced the open file."""
     try:
         there = os.stat(path)
     except FileNotFoundError:

@@ -188,10 +188,7 @@ class MapFrame:
 
 
 def _window_boundary(centres: Field) -> float:
-    """Return the coordinate of the window boundary, half a cell beyond the last centre [length].
-
-    centres  coordinates of the cell centres along one axis (n,) [length]
-    """
+    """Return the window boundary, half a cell beyond the last of the centres (n,) [length]."""
     return float(centres[-1] + (centres[1] - centres[0]) / 2)
 
 

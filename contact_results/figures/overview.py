@@ -150,11 +150,7 @@ def _draw_stress(
 
 def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
     """Place axis labels at fixed distances, and limit the ticks.
-
-    matplotlib places labels by a second layout of all tick labels, a sixth of the drawing time.
-
-    panels  axes of matplotlib
-    """
+    The second layout by which matplotlib places labels takes a sixth of the drawing time."""
     for ax in panels:
         for axis, place, shift in zip((ax.xaxis, ax.yaxis), LABELS, LABEL_SHIFTS, strict=True):
             axis.set_label_coords(*place, offset_copy(ax.transAxes, figure, *shift, "points"))

@@ -164,10 +164,7 @@ def _edge_crossings(field: StressField) -> StressPoints | None:
 
 
 def _edge_positions(field: StressField) -> Sequence[float]:
-    """Return the coordinates x of the contact edge at y = 0 [length].
-
-    Without a fitted edge, these are ± the contact radius.
-    """
+    """Return the fitted contact edge at y = 0, or else ± the contact radius [length]."""
     ends = _edge_crossings(field)
     if ends is None:
         return (-_contact_radius(field), _contact_radius(field))

@@ -401,14 +401,11 @@ def _stress_in_window(
 
 
 def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
-    """Subtract 1/12 of the second differences from cell means, within the loaded cells.
+    """Subtract 1/12 of the second differences from cell means (…, nx, ny), within the loaded cells.
 
-    Cell means, applied as constant tractions, act like the true tractions times sinc²(kh/2) = 1 -
-    k²h²/12 + … per axis, with wavenumber k and cell width h. The subtraction compensates the term
-    k²h². It is a flux between loaded cells, so that the total force is unchanged.
-
-    means   mean traction of each cell (…, nx, ny) [force/length^2]
-    loaded  mask of the cells with pressure (nx, ny)
+    Constant tractions on cells act like the true ones times sinc²(kh/2) = 1 - k²h²/12 + … per axis,
+    with wavenumber k and cell width h. The subtraction compensates the term k²h². It is a flux
+    between loaded cells, so that the total force is unchanged.
     """
     found = means.copy()
     for axis in (-2, -1):
@@ -433,12 +430,8 @@ def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
 
 
 def _margin_cells(pressure: Field, axis: int, margin: float) -> int:
-    """Return the number of cells to add on each side of the window along one axis.
-
-    pressure  pressure of the cells (nx, ny)
-    axis      0 for x, 1 for y
-    margin    smallest half width of the window in half extents of the contact
-    """
+    """Return the number of cells to add on each side along an axis:
+    half the window is at least `margin` times the half extent of the contact."""
     cells = pressure.shape[axis]
     loaded = np.flatnonzero(np.any(pressure > 0, axis=1 - axis))
     reach = np.abs(loaded - (cells - 1) / 2).max() + 0.5 if loaded.size else 0.0

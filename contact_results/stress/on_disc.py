@@ -105,12 +105,8 @@ class OnDisc(BodyResponse):
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
-    """Extend points of an axisymmetric stress from x >= 0 to x < 0 by reflection.
-
-    At x < 0, r points along -x and θ along -y, so the signs of some components change.
-
-    right  points of the section with x >= 0 (levels, n)
-    """
+    """Extend points (levels, n) from x >= 0 to x < 0,
+    where r points along -x and θ along -y, so that signs of components change."""
     behind = replace(
         right,
         x=-right.x,

@@ -153,11 +153,7 @@ def _section_points(field: SectionField) -> StressPoints:
 
 
 def _axis_points(section: StressPoints, reach: float) -> StressPoints:
-    """Return the points on the z axis, downward, without the duplicates of the second half.
-
-    section  points of both halves of the section
-    reach    largest depth [length]
-    """
+    """Return the points on the z axis to the depth `reach`, each once."""
     on_it = np.flatnonzero((section.x == 0.0) & (section.depth <= reach))
     places = np.stack([section.depth[on_it], section.material[on_it]])
     return section.select(on_it[np.unique(places, axis=1, return_index=True)[1]])

@@ -164,13 +164,8 @@ def _gross_sliding(
 
 
 def _key_of_shear(index: int, step: LoadStep) -> Path:
-    """Return the key that the user must change in a load step with gross sliding.
-
-    The key is that of the tangential load, or else of the normal force.
-
-    index  index of the load step from 0
-    step   load step as written in the scene
-    """
+    """Return the key of the tangential load,
+    or else of the normal force, to change at gross sliding."""
     names = ("tangential_force", "tangential_shift", "normal_force")
     named = [name for name in names if getattr(step, name) is not None]
     return ("loading", index, *named[:1])

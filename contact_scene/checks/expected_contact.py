@@ -168,14 +168,10 @@ def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
 
 
 def _modulus_within(scene: Scene, radius: float) -> float:
-    """Compute the contact modulus E* of the materials to a depth of about one contact radius.
+    """Compute E* of the materials to a depth of about one contact radius [force/length^2].
 
-    The materials are the substrate below thin layers, or else the outermost layer. The layers of a
-    body are thin if their total thickness is below the radius.
-
-    scene    bodies with their layers
-    radius   contact radius [length]
-    returns  E* [force/length^2]; 0 if these materials are rigid
+    The materials are the substrate below layers of a total thickness below the radius, or else the
+    outermost layer. The result is 0 if they are rigid.
     """
     compliance = 0.0
     for body in (scene.body, scene.indenter):
@@ -233,16 +229,11 @@ def _estimate_strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
 
 
 def _moduli_below_contact(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
-    """Yield the moduli of the layers and the substrate of a body to a depth of one contact radius.
+    """Yield moduli to a depth of one contact radius, with names such as "layer 1".
 
-    Used to estimate strains as mean pressure over modulus. The modulus is E/(1 - nu^2); that of a
-    layer thinner than the contact radius is larger, because its bond to the material below
-    restrains its deformation.
-
-    body            layered body
-    contact_radius  contact radius [length]
-    yields          modulus [force/length^2] and location in words, such as "layer 1"; empty for a
-                    body without layers
+    The modulus is E/(1 - nu^2); that of a layer thinner than the contact radius is larger, because
+    its bond restrains its deformation. Strains are estimated as mean pressure over modulus. A body
+    without layers yields none.
     """
     depth = 0.0
     for number, layer in enumerate(body.layers, start=1):
@@ -260,9 +251,6 @@ def _layer_modulus(layer: Layer, contact_radius: float) -> float:
     uniaxial strain, with the modulus E (1 - nu) / ((1 + nu) (1 - 2 nu)), or squeezed out in shear,
     with the modulus G a/h and the thickness h, whichever is softer. The ratio for a thicker layer
     is E/(1 - nu^2).
-
-    layer           layer with its thickness h and its constants E, nu and G
-    contact_radius  a [length]
     """
     material, nu = layer.material, layer.material.poisson_ratio
     if layer.thickness >= contact_radius:

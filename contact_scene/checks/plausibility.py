@@ -188,13 +188,8 @@ def _scene_numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
 
 
 def _is_dimensionless(scene: Scene) -> bool:
-    """Determine if the numbers of a scene are dimensionless, so that usual ranges do not apply.
-
-    This is assumed if all Young's moduli are below that of rubber and all radii are above that of a
-    ball.
-
-    scene  bodies and indenter shape
-    """
+    """Determine if usual ranges do not apply:
+    all moduli are below that of rubber, and all radii above that of a ball."""
     known = list(_scene_numbers(scene, ()))
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
@@ -242,10 +237,8 @@ def _map_warnings(key: str, values: NDArray[np.float64]) -> Iterator[str]:
 
 
 def _unevenness(line: NDArray[np.float64]) -> float:
-    """Return the largest distance of values from even spacing over the mean step; NaN if unknown.
-
-    The value is infinite for values without a mean step.
-    """
+    """Return the largest distance from even spacing over the mean step;
+    infinite for a mean step of 0, NaN if unknown."""
     even = np.linspace(line[0], line[-1], len(line))
     step = abs(line[-1] - line[0]) / (len(line) - 1)
     return float(np.max(np.abs(line - even)) / step) if step else np.inf
@@ -380,13 +373,8 @@ def _spring_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iter
 
 
 def _yield_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first load step whose mean pressure exceeds the hardness of most metals.
-
-    The hardness of most metals and ceramics is at most about _HARD times the contact modulus E*.
-    The materials would yield, which linear elasticity excludes.
-
-    pressed  expected contacts at the ends of the load steps
-    """
+    """Warn about the first mean pressure above the hardness
+    of most metals and ceramics, at most about _HARD times E*."""
     for end in pressed:
         if end.modulus > _STIFF and _HARD < end.strain <= SMALL_STRAIN:
             yield (
@@ -399,22 +387,13 @@ def _yield_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
 
 
 def _normal_load(end: ExpectedContact) -> str:
-    """Write the prescribed normal load of a load step as text, such as "approach: 1 µm".
-
-    end  expected contact at the end of the load step
-    """
+    """Write the prescribed normal load of a load step as text, such as "approach: 1 µm"."""
     by_force = end.ramp.normal.kind is ControlKind.FORCE
     load = quantity(end.ramp.normal.end, "N" if by_force else "m")
     return f"{'normal_force' if by_force else 'approach'}: {load}"
 
 
 def _strain_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first load step with expected strains beyond linear elasticity.
-
-    The limit is SMALL_STRAIN. The warning states the normal load and the strain.
-
-    pressed  expected contacts at the ends of the load steps
-    """
     for end in pressed:
         if end.strain > SMALL_STRAIN:
             yield (

@@ -80,15 +80,8 @@ def _increments_of_ramp(ramp: LoadRamp) -> int:
 
 
 def _end_loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
-    """Yield the prescribed forces and displacements at the end of a load step.
-
-    Used to compare the loads of two load steps. The bulk strain of the lower body counts as one
-    load.
-
-    ramp    load ramp of the load step
-    yields  coordinate of the indenter and kind of the control (force or displacement); its values,
-            one or two (the bulk strain: three or none)
-    """
+    """Yield the loads at the end of a step by coordinate and kind (force or displacement),
+    each with one or two values; the bulk strain is one load of three values or none."""
     controls: tuple[Any, ...] = (ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting)
     for coordinate, control in enumerate(controls):
         end = control.end if isinstance(control.end, tuple) else (control.end,)
@@ -97,14 +90,8 @@ def _end_loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
 
 
 def _load_scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
-    """Compute the largest magnitude of each prescribed force and displacement over the load path.
-
-    Used to compare the loads of two load steps with a relative tolerance. Forces and displacements
-    of a coordinate are separate.
-
-    ramps    load ramps of all load steps
-    returns  largest magnitude by coordinate and kind of the control; 0 if all values are 0
-    """
+    """Compute the largest magnitude of each force and displacement over the load path,
+    as the scale of a tolerance."""
     scales: dict[Kind, float] = {}
     for kind, values in chain.from_iterable(map(_end_loads, ramps)):
         scales[kind] = max(scales.get(kind, 0.0), *map(abs, values), 0.0)
@@ -112,15 +99,8 @@ def _load_scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
 
 
 def _rounded_loads(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
-    """Return the loads at the end of a load ramp in a form that is equal for equal loads.
-
-    Used to find load cycles, which return to the loads of an earlier load step.
-
-    ramp     load ramp of a load step
-    scales   largest magnitude of each control over the load path
-    returns  coordinate and kind of each control, with its values relative to the scale and rounded
-             to `DIGITS` decimals
-    """
+    """Return the loads at the end of a step relative to their scales,
+    rounded to `DIGITS` decimals, so that equal loads compare equal."""
     return tuple(
         (kind, tuple(round(value / (scales[kind] or 1.0), DIGITS) for value in values))
         for kind, values in _end_loads(ramp)

@@ -365,12 +365,7 @@ def columns(
 
 
 def _remove_sign_of_zero(value: Any) -> Any:
-    """Replace -0.0 by 0.0 in a reported number or vector.
-
-    The sign of a zero has no meaning in a result.
-
-    value  number, tuple of numbers, array or None
-    """
+    """Replace -0.0 by 0.0, whose sign has no meaning in a result."""
     if isinstance(value, tuple):
         return tuple(map(_remove_sign_of_zero, value))
     return value if value is None or isinstance(value, int) else value + 0.0

@@ -141,13 +141,10 @@ def input_work(before: RingIncrement | None, increment: RingIncrement) -> float 
 
 
 def _conjugate_loads(increment: RingIncrement) -> tuple[Vector, Vector | None]:
-    """Return the loads of the indenter and its conjugate motions, for the work of the loads.
+    """Return (W, T_x, T_y, M_z) and (approach, shift x, shift y, twist), for the work of the loads.
 
-    The loads are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
-    (approach, shift along x, shift along y, twist). They are None if the shift or the twist is
-    undefined, as at the friction limit under force control.
-
-    increment  increment of the result
+    The motions are None if the shift or the twist is undefined, as at the friction limit under
+    force control.
     """
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist

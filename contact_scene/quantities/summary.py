@@ -302,11 +302,8 @@ def load_summary(text: str) -> RunSummary:
 
 
 def _line_texts(mark: Reported | None, name: str) -> dict[str, str]:
-    """Return meaning and unit of a scalar of a line contact for the JSON Schema; empty for others.
-
-    mark  unit and meaning of the scalar for other contacts; None for other keys
-    name  name of the scalar
-    """
+    """Return meaning and unit of a scalar of a line contact for the JSON Schema;
+    empty for other keys."""
     if mark is None:
         return {}
     mark = shown_mark(name, mark, line=True)

@@ -80,10 +80,7 @@ def array_file(value: Any, info: ValidationInfo, least_side: int = _MIN_SIDE) ->
 
 
 def _read_table(value: Any, info: ValidationInfo) -> ArrayFile:
-    """Validate the value of a key that names a table of two columns, and return the array.
-
-    Used for the profile of an indenter, instead of `array_file`.
-    """
+    """Validate a key that names a table of two columns, such as a profile."""
     return array_file(value, info, least_side=2)
 
 

@@ -31,12 +31,8 @@ class Description(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _refuse_sets(cls, given: Any) -> Any:
-        """Raise a validation error if a value of a scene is a Python set.
-
-        Load steps, layers and components have an order, which a set has not.
-
-        given  values of a table by their keys
-        """
+        """Raise a validation error for a Python set,
+        which has no order, unlike load steps and layers."""
         for name, value in given.items() if isinstance(given, dict) else ():
             if isinstance(value, set | frozenset):
                 raise refusal(f"got a set for {name}", "a tuple or list, which has an order")

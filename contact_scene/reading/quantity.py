@@ -120,13 +120,8 @@ class Quantity:
             raise refusal(f"got {shown(value)}", self.expected) from None
 
     def _hint_for(self, value: Any) -> str:
-        """Return a hint for a script that passed an unsupported number for a quantity.
-
-        An example is an object with a unit. The hint is part of the error message.
-
-        value    received object
-        returns  hint on the value to pass instead; empty without a hint
-        """
+        """Return a hint for an unsupported number, such as an object with a unit;
+        empty without a hint."""
         if has_unit(value):
             text = f"write a text such as {self.kind.example}, or " if self.kind.units else ""
             return f"{text}pass its number{f' in {self.kind.si}' if self.kind.si else ''}"

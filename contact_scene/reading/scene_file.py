@@ -146,9 +146,7 @@ def replace_keys(scene: Scene, changes: Mapping[str, Any]) -> Scene:
 def _validate_tables(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
     """Validate the tables of a scene file, and check their consistency with each other.
 
-    kind      class of the model, such as the scene
-    document  tables by their keys
-    context   context of pydantic's validators: folder of the scene file
+    context  context of pydantic's validators: folder of the scene file
 
     Raises `SceneError` with every mistake.
     """

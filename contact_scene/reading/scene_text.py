@@ -64,27 +64,16 @@ def shape_text(indenter: Body) -> str:
 
 
 def _key_texts(model: BaseModel, *, line: bool = False) -> Iterator[Line]:
-    """Yield the name of each key of a table of the scene, with its value in a readable unit.
-
-    Used for the description of a scene. The text of the value is empty for a key without a value.
-
-    model  table of the scene, such as a load step
-    line   True for a line contact, whose loads are per length
-    """
+    """Yield the name of each key with its value in a readable unit;
+    the text is empty without a value."""
     for name, field in type(model).model_fields.items():
         unit = shown_unit(_unit_of_field(field), line=line)
         yield name, _value_text(getattr(model, name), unit)
 
 
 def _table_text(model: BaseModel, left_out: Container[str] = (), *, line: bool = False) -> str:
-    """Write a table of the scene as one text of keys and values, for the description of a scene.
-
-    The shape of an indenter comes first, without its key. Keys without a value are left out.
-
-    model     table of the scene
-    left_out  names of other keys to leave out
-    line      True for a line contact, whose loads are per length
-    """
+    """Write keys and values of a table as one text.
+    The shape of an indenter comes first, without its key."""
     texts = {
         name: text for name, text in _key_texts(model, line=line) if text and name not in left_out
     }
@@ -113,13 +102,7 @@ def _value_text(value: object, unit: str = "") -> str:
 
 
 def _unit_of_field(field: FieldInfo) -> str:
-    """Return the SI unit of the values of a key of the scene, such as "m" for a radius.
-
-    Used to write values with a unit. The result is empty for pure numbers and for values that are
-    not quantities.
-
-    field  definition of the key in its pydantic model
-    """
+    """Return the SI unit of a key, such as "m"; empty for pure numbers and other values."""
     unit = next(_quantity_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""
 

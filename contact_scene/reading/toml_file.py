@@ -155,10 +155,7 @@ def locate_keys(document: str) -> dict[Path, int]:
 
 
 def _record_keys(table: Path, keys: list[str], line: int, lines: dict[Path, int]) -> Path:
-    """Record the line of dotted keys `a.b` in a table, and return the path of the last.
-
-    lines  line of each path, which is changed in place
-    """
+    """Record the line of dotted keys `a.b` of a table in `lines`, and return the last path."""
     for key in keys:
         table = (*table, key)
         lines.setdefault(table, line)
@@ -166,12 +163,9 @@ def _record_keys(table: Path, keys: list[str], line: int, lines: dict[Path, int]
 
 
 def _toml_tokens(document: str) -> Iterator[tuple[str, bool, int]]:
-    """Yield the tokens of a TOML document: keys, values, marks and ends of lines.
+    """Yield the tokens of a TOML document: text, True if it may be a key, and line.
 
-    Used to determine the line of each key of a scene file.
-
-    document  text of the document
-    yields    text of the token; True if it may be a key; its line. The last token ends a line
+    Tokens are keys, values, marks and ends of lines. The last token ends a line.
     """
     line = 1
     for match in _TOKEN.finditer(document):

@@ -151,14 +151,8 @@ def _unknown_shape(path: Path, given: Any) -> Problem:
 
 
 def _bracket_hint(path: Path, given: Any) -> str:
-    """Return a hint if single and double brackets of a TOML table header may be confused.
-
-    A table has single brackets, an array of tables has double brackets.
-
-    path     path of the table in the scene document
-    given    value at the path
-    returns  hint; empty without such a mistake
-    """
+    """Return a hint if single (table) and double
+    (array of tables) brackets may be confused, else ""."""
     if path[-1:] != ("layers",) and len(path) != 1:
         return ""
     header = ".".join(str(part) for part in path if isinstance(part, str))
@@ -180,12 +174,7 @@ _MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
 
 
 def _is_branch(part: str | int) -> bool:
-    """Return True if a part of a pydantic error location names one member of a union of models.
-
-    Such a part is no key of the scene file. It is left out of the message.
-
-    part  key, index or name of a member in the location
-    """
+    """Return True for a part of an error location that names a member of a union, and is no key."""
     return isinstance(part, str) and part.startswith("<")
 
 
@@ -231,10 +220,7 @@ def _expected_value(location: Location) -> str:
 
 
 def _expected_table(location: Location) -> str:
-    """Describe the expected table of the scene in words, with its required keys, for a message.
-
-    location  pydantic error location of the table
-    """
+    """Describe the table at a pydantic error location in words, with its required keys."""
     if location and location[-1] in _IN_BRANCH:
         return _IN_BRANCH[str(location[-1])]
     model = _model_at(location)

@@ -104,23 +104,13 @@ def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bo
 
 def _follows_force(ramp: LoadRamp) -> bool:
     """Determine if the control of shift or twist changes between force and displacement.
-
-    A load step that prescribes the other quantity than the preceding step starts from a result of
-    the solve. The start value is not prescribed and may cause shear.
-
-    ramp  load ramp of the load step
-    """
+    The step then starts from a result of the solve, which may cause shear."""
     return ramp.tangential.start is None or ramp.twisting.start is None
 
 
 def _are_equal_without_poisson(scene: Scene) -> bool:
-    """Return True if both bodies have no layers and Poisson's ratio 0.
-
-    The direction of slip under a straight tangential load is then constant, which proves that the
-    result does not depend on the number of increments.
-
-    scene  bodies with their materials
-    """
+    """Return True if both bodies have no layers and Poisson's ratio 0. Slip under a straight
+    load then has a constant direction, so that the result does not depend on the increments."""
     materials = {body.material for body in (scene.body, scene.indenter)}
     layers = scene.body.layers or scene.indenter.layers
     return not layers and all(

@@ -69,13 +69,7 @@ class Control(Generic[Value]):
 
 
 def _interpolate_ramp(begin: Any, end: Any, fraction: float) -> Any:
-    """Interpolate a force, displacement or bulk strain linearly within a load step.
-
-    Tuples are interpolated component by component. The value at the end is exact.
-
-    begin, end  values at the start and the end of the load step
-    fraction    fraction of the load step, from 0 to 1
-    """
+    """Interpolate a value, or each component of a tuple; the value at the end is exact."""
     if isinstance(end, tuple):
         return tuple(_interpolate_ramp(*ends, fraction) for ends in zip(begin, end, strict=True))
     return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
@@ -235,17 +229,8 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
 def _bulk_strain_of_step(
     step: LoadStep, last: LoadRamp, base: Material | None, *, line: bool
 ) -> tuple[Strain, Strain] | None:
-    """Determine the bulk strain of the lower body at the start and end of a load step.
-
-    The bulk strain is a uniform strain parallel to the surface, given directly or by a stress. A
-    step without one keeps the strain of the preceding step.
-
-    step     load step as written in the scene
-    last     ramp of the preceding load step
-    base     material of the substrate, for a bulk stress
-    line     True for plane strain
-    returns  both strains (εxx, εyy, εxy); None without a bulk strain in the history
-    """
+    """Determine the strains (εxx, εyy, εxy) at start and end, given directly or by a stress,
+    or else those of the preceding step; None without a bulk strain in the history."""
     if last.stretch is None:
         return None
     start = last.stretch[1]
@@ -258,16 +243,8 @@ def _bulk_strain_of_step(
 def _next_control(
     force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
 ) -> Control[Value]:
-    """Determine the control of one coordinate of the indenter in a load step.
-
-    A control is a prescribed force or displacement that changes linearly within the step. A
-    coordinate without a prescribed value keeps the last value of its control.
-
-    force, displacement
-             values that the load step prescribes; at most one of them is not None
-    last     control of the coordinate in the preceding load step
-    at_rest  True if force and displacement are both zero so far, so that the ramp starts from 0
-    """
+    """Determine the control of a coordinate, which keeps the last value of its control without a
+    new one. The ramp starts from 0 if force and displacement are both zero so far (`at_rest`)."""
     named = displacement if force is None else force
     if named is None:
         return Control(last.kind, last.end, last.end)

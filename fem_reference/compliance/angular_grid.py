@@ -23,8 +23,6 @@ Transforms = tuple[Matrix, Matrix, Matrix]
 class AngularGrid:
     """Angles of the points on a ring, with transforms between point values and angular harmonics.
 
-    A ring is a circle around the axis on the surface.
-
     angles   θ_j (points,) [radian]
     weights  angle of the full circle that each point represents (points,), with the sum 2π
     cosines  matrix from point values to the amplitudes of cos nθ (harmonics, points)
@@ -42,7 +40,7 @@ class AngularGrid:
 
     @property
     def points(self) -> int:
-        """Number of points on each ring, a circle around the axis on the surface.
+        """Number of points on each ring.
 
         Points on the half circle represent their mirror images as well.
         """
@@ -176,13 +174,8 @@ def _grid_on_places(places: Indices, highest: int, *, whole: bool) -> AngularGri
 
 
 def _amplitude_matrix(waves: Matrix, weights: Vector) -> Matrix:
-    """Return the matrix from point values to the amplitudes of orthogonal waves.
-
-    A row is zero if the wave is zero at all points.
-
-    waves    values of each wave at the points (harmonics, points)
-    weights  integration weights of the points (points,)
-    """
+    """Return the matrix from point values to amplitudes of orthogonal waves (harmonics, points);
+    the row of a wave that is zero at all points is zero."""
     weighted = waves * weights
     norms = np.sum(weighted * waves, axis=1, keepdims=True)
     return np.divide(weighted, norms, out=np.zeros_like(weighted), where=norms > 0)

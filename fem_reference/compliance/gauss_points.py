@@ -19,9 +19,8 @@ POINTS_PER_EDGE = 3
 class GaussPoints(TractionBasis):
     """Traction basis of the penalty law: tractions concentrated on rings through Gauss points.
 
-    A ring is a circle around the axis on the surface. The basis function of a ring of radius r_g is
-    one at the ring and zero at all others. The integral of f over r dr is Σ f(r_g) w_g r_g with the
-    Gauss weights w_g.
+    The basis function of a ring of radius r_g is one at the ring and zero at all others. The
+    integral of f over r dr is Σ f(r_g) w_g r_g with the Gauss weights w_g.
     """
 
     def integrate(self, function: Callable[[Field], Field]) -> Field:

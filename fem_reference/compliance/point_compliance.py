@@ -37,12 +37,12 @@ class PointCompliance:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of rings (circles around the axis, including the axis) and of angles on each."""
+        """Number of rings (including the axis) and of angles on each."""
         return len(self.rings.radii), self.grid.points
 
     @cached_property
     def ring_of_point(self) -> NDArray[np.intp]:
-        """Index of the ring (circle around the axis) on which each surface point lies (points,)."""
+        """Index of the ring on which each surface point lies (points,)."""
         rings, angles = self.shape
         return np.concatenate([[0], np.repeat(np.arange(1, rings), angles)])
 
@@ -200,12 +200,8 @@ class PointCompliance:
 
     @cached_property
     def _shifts_around(self) -> Field:
-        """Components r and θ of unit vectors along x and y at all angles (2, 2, angles).
-
-        x is the direction of the tangential load. Used for the displacement of the points by shifts
-        of the indenter, and for the traction on the axis. The component θ is zero on a grid that
-        cannot represent it, and the vector along y on the half circle.
-        """
+        """Components r and θ of unit vectors along x (the load) and y at all angles (2, 2, angles);
+        zero where the grid cannot represent them."""
         cos, sin = np.cos(self.grid.angles), np.sin(self.grid.angles)
         sin = np.where(np.any(self.grid.sines, axis=0), sin, 0.0)
         across = np.stack([sin, cos]) * float(self.grid.whole)
@@ -213,12 +209,10 @@ class PointCompliance:
 
     @cached_property
     def _axis_vectors(self) -> Field:
-        """Components r, θ and z at all angles of unit tractions on the axis along x, y and z.
+        """Components r, θ, z at all angles of unit tractions x, y, z on the axis (3, 3, angles).
 
-        The point on the axis has one traction, which appears at all angles of the ring of radius 0.
-        The shape is (3, 3, angles): component first, then direction. The traction along y is zero
-        on the half circle by mirror symmetry. On a grid of one angle the axis is treated as a ring,
-        and the matrix is the identity.
+        On the half circle the traction along y is zero by mirror symmetry. On a grid of one angle
+        the axis is treated as a ring, and the matrix is the identity.
         """
         if self.grid.highest == 0:
             return np.eye(3)[:, :, None]
@@ -228,26 +222,15 @@ class PointCompliance:
         return unit
 
     def _spread_over_rings(self, values: Field) -> Field:
-        """Convert a vector field at the surface points to the array shape (3, rings, angles).
-
-        The components of the result are r, θ and z. The vector at the point on the axis is repeated
-        for all angles. Used before a transform to angular harmonics.
-
-        values  components at the points: x, y, z on the axis, else r, θ, z (3, points)
-        """
+        """Convert vectors at the points (3, points) to r, θ, z (3, rings, angles).
+        The point on the axis has components x, y, z, and is repeated for all angles."""
         rings, angles = self.shape
         axis = np.einsum("cak,c->ak", self._axis_vectors, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert displacements times areas on rings and angles to surface points (3, points, …).
-
-        The axis is one point. Its values at all angles are summed to components x, y and z. This
-        conversion is the transpose of `_spread_over_rings`, which spreads tractions over rings and
-        angles, so that the work of the tractions is preserved.
-
-        weak  displacements times areas, components r, θ, z (3, rings, angles, …)
-        """
+        """Sum r, θ, z (3, rings, angles, …) on the axis to x, y, z (3, points, …):
+        the transpose of `_spread_over_rings`, so that work is preserved."""
         axis = np.einsum("cak,ak...->c...", self._axis_vectors, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])
         return np.concatenate([axis[:, None], rest], axis=1)

@@ -31,10 +31,9 @@ from fem_reference.plan import TWISTED, UNCOUPLED, Path
 class RingCompliance:
     """Displacement amplitudes of surface rings per traction amplitude, for all angular harmonics.
 
-    A ring is a circle around the axis on the surface, through a corner node or a Gauss point. In
-    plane strain it is a pair of lines at equal distances from the middle. Tractions are sums of
-    functions φ(r), one for each ring. Displacements and gaps are integrated with the same functions
-    φ.
+    A ring goes through a corner node or a Gauss point. In plane strain it is a pair of lines at
+    equal distances from the middle. Tractions are sums of functions φ(r), one for each ring.
+    Displacements and gaps are integrated with the same functions φ.
 
     radii      ascending radii of the rings (rings,) [length]
     areas      ∫ φ r dr (rings,) [length^2]
@@ -83,8 +82,7 @@ def ring_compliance(
 ) -> RingCompliance:
     """Compute the compliance of the surface rings from the compliance of the surface nodes.
 
-    A ring is a circle around the axis on the surface, and carries one traction value. Nodal
-    compliances that the model has not computed yet are computed here.
+    Nodal compliances that the model has not computed yet are computed here.
 
     model            the two bodies with their meshes, nodal compliances and undeformed gap
     path             tractions that the solve computes, such as pressure alone

@@ -107,7 +107,7 @@ class Edge(Protocol):
 
         The traction is the pressure, or the difference between friction limit and shear.
 
-        radii    radii of the rings, circles around the axis on the surface (n,) [length]
+        radii    radii of the rings (n,) [length]
         values   traction at the rings (n,), positive at the ring `last` and before it, zero at the
                  next ring
         last     index of the last ring with a positive value
@@ -122,7 +122,7 @@ class HatEdge:
 
     The tractions are linear between the nodes and zero beyond the edge. The distance of the edge
     from the last ring with a positive traction follows from the ratio of the last two positive
-    tractions. A ring is a circle around the axis.
+    tractions.
 
     beyond  coefficients of the polynomial from this ratio to the distance in elements, lowest power
             first
@@ -245,7 +245,7 @@ def contact_edge(
     If the last ring carries pressure, the result is the outer end of the last element, as for a
     flat punch. Without pressure the result is 0.
 
-    radii     radii of the rings, circles around the axis on the surface (n,) [length]
+    radii     radii of the rings (n,) [length]
     pressure  pressure at the rings (n,), not negative
     edge      rule for the radius between two rings
     reach     outer end of the last element [length]; None for the radius of the last ring
@@ -284,7 +284,7 @@ def stick_area(
 
     The fields are those of an axisymmetric contact, or those along one ray.
 
-    radii           radii of the rings, circles around the axis on the surface (n,) [length]
+    radii           radii of the rings (n,) [length]
     bound           friction limit µp at the rings (n,), zero where no shear is possible
     shear           one or two components of the shear at the rings (c, n)
     slips           True for rings that are in contact and slip (n,)

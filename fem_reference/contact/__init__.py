@@ -1,1 +1,4 @@
-"""Contact with friction between two bodies that are represented by their surface compliances."""
+"""Contact with friction between two bodies that are represented by their surface compliances.
+
+The package `compliance` defines rings and rays.
+"""

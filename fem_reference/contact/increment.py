@@ -105,14 +105,7 @@ def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise NothingTouches if the prescribed approach is at most the smallest undeformed gap.
-
-    No ring of the surface would come into contact. An increment with a prescribed normal force
-    passes this check.
-
-    contact  contact problem, with the undeformed gap at the points (points,) [length]
-    loads    prescribed loads at the end of the increment; only the approach is used
-    """
+    """Raise NothingTouches if a prescribed approach is at most the smallest mean gap of a ring."""
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
         raise NothingTouches(
@@ -476,8 +469,7 @@ class _Increment:
         """Compute the contact fraction of each point: the part of the increment in contact.
 
         The fractions (points,) are between 0 and 1. They follow from the motion of the contact edge
-        along the ray of the point. A ray is the set of points at one angle. Used to count slip only
-        while the surfaces are in contact.
+        along the ray of the point. Used to count slip only while the surfaces are in contact.
 
         p  pressure at the end of the increment (points,)
         """
@@ -565,12 +557,8 @@ def over(part: float, whole: float) -> float:
 def _prescribed_or_carried(
     prescribed: tuple[float | None, ...], carried: Vector, acting: tuple[int, ...]
 ) -> Triple:
-    """Return the tangential loads of the indenter: prescribed loads, else those of the shear.
-
-    prescribed  prescribed loads (3,); None where the motion is prescribed
-    carried     loads of the shear (3,)
-    acting      motions that the symmetry of the solve does not exclude
-    """
+    """Return the prescribed loads, else those of the shear (3,),
+    on the motions that symmetry allows."""
     along, across, torque = (
         float(carried[k]) if load is None or k not in acting else load
         for k, load in enumerate(prescribed)
@@ -588,7 +576,7 @@ def touching_share(
     of the motion, with a the larger of a₀ and a₁. This fraction is correct to first order in the
     increment. The result has the shape (rings,).
 
-    radii  radii of the rings, circles around the axis on the surface (rings,) [length]
+    radii  radii of the rings (rings,) [length]
     apart_before, apart
            True for rings with a gap at the start, and at the end (rings,)
     edge_before, edge

@@ -117,13 +117,8 @@ def _add_shear(
 
 
 def _elastic_energy(contact: PointContact, state: PointState) -> float:
-    """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
-
-    The springs of a penalty and of a test rig are excluded.
-
-    contact  contact problem, with the undeformed gap and the areas of the points
-    state    contact state with tractions, gap and tangential displacement
-    """
+    """Compute ½ ∫ (p u_z + q·u) dA [force length],
+    without the springs of a penalty and of a test rig."""
     normal = state.gap - contact.gap + state.approach
     work = state.pressure * normal + np.sum(state.shear * state.displacement, axis=0)
     down, along = contact.rig
@@ -132,52 +127,24 @@ def _elastic_energy(contact: PointContact, state: PointState) -> float:
 
 
 def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert a scalar field at the points of the surface to the array shape of the result.
-
-    The shape is (rings,) if the contact is axisymmetric, else (rings, angles). A ring is a circle
-    around the axis on the surface.
-
-    contact  contact problem, which defines the rings and angles of the points
-    values   field at the points, such as the pressure (points,)
-    """
+    """Convert a scalar field to rings and angles; (rings,) if the contact is axisymmetric."""
     return _drop_angle_axis(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _drop_angle_axis(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Remove the array axis of angles from a field of the result if the contact is axisymmetric.
-
-    An axisymmetric field (rings, 1) becomes (rings,). Other fields (rings, angles) are returned
-    unchanged.
-
-    contact  contact problem, which is axisymmetric or has several angles
-    on_grid  field on rings and angles (rings, angles)
-    """
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
 
 def _contact_edges(contact: PointContact, state: PointState) -> Field:
-    """Compute the radius of the contact edge on every ray of the surface (angles,) [length].
-
-    A ray is the set of points at one angle. The radius is the outer end of the last element if the
-    last ring carries pressure, and 0 without contact.
-
-    contact  contact problem, which defines the rings and angles of the points
-    state    contact state with pressure and shear at the points
-    """
+    """Compute the edge radius on every ray (angles,) [length]:
+    the end of the last element if the last ring carries pressure, 0 without contact."""
     p = contact.compliance.scalar_on_grid(state.pressure)
     outward = contact.compliance.vector_on_grid(state.shear)[0]
     return np.array([contact.rings.contact_edge(*ray) for ray in zip(p.T, outward.T, strict=True)])
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """Compute the contact area at the end of an increment, ½∫a² dθ [length^2].
-
-    a(θ) is the radius of the contact edge at the angle θ around the axis. In plane strain the area
-    is the width 2a of the contact.
-
-    contact  contact problem, which defines the angles and their integration weights
-    edges    a on every ray, the set of points at one angle (angles,) [length]
-    """
+    """Compute ½∫a² dθ with the edge radius a of every ray [length^2]; 2a in plane strain."""
     parts = [area_within(edge, plane=contact.rings.plane) for edge in edges]
     weights = contact.compliance.grid.weights
     return float(np.sum(weights * parts) / np.sum(weights))
@@ -189,14 +156,9 @@ def _radius_of(contact: PointContact, area: float) -> float:
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
-    """Compute the area of the stick zone at the end of an increment [length^2].
+    """Compute the area of the stick zone, at most the contact area: ½∫c² dθ [length^2].
 
-    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray. A ray is the
-    set of points at one angle. The area is at most the contact area.
-
-    contact  contact problem, with the friction limit of the points
-    state    contact state with tractions and slipping points
-    edges    radius of the contact edge on every ray (angles,) [length]
+    c is the radius of the edge of the stick zone on every ray.
     """
     if state.motions is None:
         # At the friction limit the shear may differ from it by round-off, which is no stick zone.

@@ -52,7 +52,7 @@ class ContactMethod:
         """Solve one load increment: compute the contact state at its end from that at its start.
 
         The points of the surface are selected by the load: one point per ring if the fields do not
-        depend on the angle, else points at several angles. A ring is a circle around the axis.
+        depend on the angle, else points at several angles.
 
         before     state at the start of the increment; None before first contact
         loads      prescribed loads or motions at the end of the increment
@@ -132,31 +132,17 @@ class ContactMethod:
 
     @cached_property
     def _axisymmetric_contact(self) -> PointContact:
-        """Contact problem with one point per ring of the surface, without loads.
-
-        Used while the tractions do not depend on the angle.
-        """
         grid = axisymmetric_grid(self.model.around)
         return point_contact(self.model, self.plan.path, grid, self.penalty)
 
     @cached_property
     def _angular_contact(self) -> PointContact:
-        """Contact problem with points at several angles on each ring of the surface, without loads.
-
-        Used for coupled bodies under a tangential load, whose tractions depend on the angle.
-        """
         assert self.around is not None
         return point_contact(self.model, self.plan.path, self.around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
-        """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements.
-
-        The solver then repeats the solve on a larger mesh, unless the contact radius is prescribed.
-        A contact that ends at the rim of the indenter is allowed.
-
-        contact  contact problem, which defines the rings of the surface
-        state    contact state with the pressure at the points
-        """
+        """Raise ContactAtZoneEdge, for a solve on a larger mesh,
+        if the contact reaches the end of the fine elements and does not end at a rim."""
         last = contact.compliance.ring_of_point == len(contact.rings.radii) - 1
         if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):
             raise ContactAtZoneEdge(

@@ -43,23 +43,20 @@ class PointContact:
 
     @property
     def rings(self) -> RingCompliance:
-        """Rings of the surface that contain the points, with the compliance of the rings.
-
-        A ring is a circle around the axis on the surface.
-        """
+        """Rings of the surface that contain the points, with the compliance of the rings."""
         return self.compliance.rings
 
     @property
     def gap(self) -> Vector:
         """Gap between the undeformed surfaces at first contact, at the points (points,) [length].
 
-        The value of a point is the weighted mean over its ring, a circle around the axis.
+        The value of a point is the weighted mean over its ring.
         """
         return self.rings.gap[self.compliance.ring_of_point]
 
     @property
     def axisymmetric(self) -> bool:
-        """True if the contact problem has one point on each ring (circle around the axis).
+        """True if the contact problem has one point on each ring.
 
         The fields then do not depend on the angle.
         """

@@ -89,12 +89,7 @@ class PointProblem:
         return self.scale.rigid_motion(shape, 1.0, self.normal.force, self.normal.approach)
 
     def _rigid_motions(self, target: TangentialTarget) -> tuple[RigidMotion, ...]:
-        """Return the shifts and the twist of the indenter times `reaches`, without excluded ones.
-
-        A motion without a prescribed load and value is omitted.
-
-        target  prescribed loads or motions
-        """
+        """Return the motions that symmetry allows and the target prescribes, times `reaches`."""
         motions, reaches = self.compliance.motions, self.compliance.reaches
         return tuple(
             self.scale.rigid_motion(motions[k], reaches[k], target.loads[k], target.motions[k])
@@ -200,10 +195,7 @@ def solve_points(
 
 
 def _motions(problem: PointProblem, motion: Vector) -> Triple:
-    """Return shifts and twist, of which those that symmetry excludes are zero.
-
-    motion  motions of the solver, times `reaches`
-    """
+    """Return shifts and twist from motions times `reaches`; 0 where symmetry excludes them."""
     found = np.zeros(3)
     acting = list(problem.compliance.acting)
     found[acting] = motion / problem.compliance.reaches[acting]

@@ -18,7 +18,7 @@ class PointState:
     coupling of pressure and shear, the first component is the one along the load, and the second is
     zero.
 
-    axisymmetric    True if each point represents a whole ring (circle around the axis)
+    axisymmetric    True if each point represents a whole ring
     pressure        pressure (points,) [force/length^2]
     shear           shear on the lower body (2, points) [force/length^2]
     displacement    tangential displacement of the lower surface relative to the upper one (2,

@@ -128,15 +128,9 @@ class FactoredSection:
 def _assemble_stiffness(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Assemble the sparse stiffness matrix of a body for the displacements of one angular harmonic.
+    """Assemble the stiffness of a body for one angular harmonic, without boundary conditions.
 
-    The matrix contains all displacement degrees of freedom, without boundary conditions. Entries
-    with the value zero remain in the sparsity pattern, because fill-in needs them.
-
-    section    mesh with the materials of the elements
-    motion     angular harmonic and components of the displacement
-    basis      finite-element basis of one displacement component
-    numbering  degree of freedom and factor of every nodal displacement
+    Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
     """
     stiffness = element_stiffness(basis, section, motion.in_strains, motion.components)
     dofs, factor = _element_unknowns(basis, numbering)
@@ -150,17 +144,10 @@ def _assemble_stiffness(
 def _add_pressure_unknowns(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Extend the stiffness matrix of a body by the pressures of nearly incompressible elements.
+    """Extend the stiffness matrix by three pressures in each nearly incompressible element.
 
-    The pressures p are separate unknowns, three in each element. The additional equations are
-    volume strain = p / lambda, with Lamé's constant lambda. The pressures enter the displacement
-    equations by the transposed matrix.
-
-    stiffness  stiffness matrix of the displacements alone
-    section    mesh with the materials of the elements
-    motion     angular harmonic and components of the displacement
-    basis      finite-element basis of one displacement component
-    numbering  degrees of freedom of displacements and pressures
+    The additional equations are volume strain = p / lambda, with Lamé's constant lambda. The
+    pressures enter the displacement equations by the transposed matrix.
     """
     mixed, first = dilatation(section).mixed, numbering.dofs.size
     volume = volume_strain(basis, motion.in_strains, motion.components)[mixed]
@@ -175,15 +162,8 @@ def _add_pressure_unknowns(
 
 
 def _element_unknowns(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """Return the degrees of freedom of the nodal displacements of all elements, with their factors.
-
-    A nodal displacement is its factor times one degree of freedom. The factor differs from 1 only
-    on the axis, where components are zero or depend on each other. Both arrays have the shape (e, 9
-    c). The 9 nodes of each of the c components are contiguous. Used to assemble element matrices.
-
-    basis      finite-element basis of one displacement component
-    numbering  degree of freedom and factor of every nodal displacement
-    """
+    """Return degrees of freedom and factors of nodal displacements (e, 9 c), components contiguous.
+    On the axis, where components are zero or depend on each other, factors differ from 1."""
     shape = (-1, basis.nelems)
     return (
         numbering.dofs[:, basis.element_dofs].reshape(shape).T,

@@ -1,8 +1,9 @@
 """Tractions that are linear in r between corner nodes: hat functions over the radius.
 
-Displacements of the surface are quadratic on each element edge, and tractions are linear. Gap and
-slip are weighted with the hat functions of the tractions. There are then no more contact conditions
-than the displacements can meet. The pressure has no oscillations, and the matrix is symmetric.
+A hat function is one at its corner node, zero at all others and linear in between. Displacements of
+the surface are quadratic on each element edge. Gap and slip are weighted with the hat functions of
+the tractions. There are then no more contact conditions than the displacements can meet. The
+pressure has no oscillations, and the matrix is symmetric.
 """
 
 from abc import ABC, abstractmethod
@@ -40,9 +41,9 @@ def product(hat: Any, trace: Any, w: Any) -> Any:
 class TractionBasis(ABC):
     """Basis functions φ_j of the radius whose sums represent the surface tractions, with integrals.
 
-    There is one function for each of n rings, circles around the axis on the surface. ψ_i are the
-    quadratic trace functions of the m surface nodes of the displacement. In plane strain integrals
-    are over dr, in place of r dr, on one half of the surface.
+    There is one function for each of n rings. ψ_i are the quadratic trace functions of the m
+    surface nodes of the displacement. In plane strain integrals are over dr, in place of r dr, on
+    one half of the surface.
 
     radii     radii of the rings, whose tractions are the unknowns (n,) [length]
     products  ∫ ψ_i φ_j r dr (m, n) [length^2]
@@ -60,9 +61,8 @@ class TractionBasis(ABC):
     def compliance(self, nodal: Matrix) -> Matrix:
         """Convert the compliance of the surface nodes to the compliance of the rings (n, n).
 
-        A ring is a circle around the axis on the surface. The ring compliance Mᵀ C M contains the
-        displacement, integrated over each function φ_i r dr, per unit traction at each ring. M is
-        the matrix `products` of integrals.
+        The ring compliance Mᵀ C M contains the displacement, integrated over each function φ_i r
+        dr, per unit traction at each ring. M is the matrix `products` of integrals.
 
         nodal  C, displacement per generalised force at the surface nodes (m, m) [length/force]
         """
@@ -82,8 +82,7 @@ class TractionBasis(ABC):
 class Hats(TractionBasis):
     """Traction basis of hat functions over the radius, one for each corner node on the surface.
 
-    A hat function is one at its node, zero at all others and linear in between. Used for the exact
-    contact law, and for the penalty law at nodes.
+    Used for the exact contact law, and for the penalty law at nodes.
     """
 
     def integrate(self, function: Callable[[Field], Field]) -> Field:
@@ -128,22 +127,11 @@ def hats_on(nodes: Field, reach: float = np.inf, power: int = 1) -> Hats:
 
 
 def _hat_basis(radii: Field) -> Basis:
-    """Create the scikit-fem basis of hat functions over the radius of the surface.
-
-    A hat function is one at its corner node, zero at all others and linear in between. The hat
-    functions represent tractions.
-
-    radii  radii of the corner nodes of the surface (n,) [length]
-    """
     return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
 def _integrate_with_hats(hats: Basis, function: Callable[[Field], Field], power: int) -> Field:
-    """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,).
-
-    hats      scikit-fem basis of the hat functions over the radius
-    function  f, a function of an array of radii
-    power     power of r in the integrals: 1, and 0 in plane strain
-    """
+    """Compute ∫ f φ_j rᵐ dr for all hat functions φ_j (n,), with m = `power`:
+    1, and 0 in plane strain."""
     load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0] ** power)
     return np.asarray(load.assemble(hats))

@@ -112,15 +112,10 @@ def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
 
 
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
-    """Compute the strains of the shape functions at the quadrature points of all elements.
+    """Map each strain, such as "rr", to its values for all shape functions (e, 9 c, q).
 
-    The result maps the name of each strain, such as "rr", to an array (e, 9 c, q) for c
-    displacement components and q points. The 9 shape functions of a component are contiguous. Used
-    to compute the element stiffness.
-
-    basis       finite-element basis of one displacement component
-    harmonic    angular harmonic n
-    components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
+    There are c displacement components and q quadrature points. The 9 shape functions of a
+    component are contiguous.
     """
     elements, points = basis.dx.shape
     found: dict[str, Field] = {}
@@ -134,15 +129,8 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Compute the projection of volume strains of shape functions onto linear functions.
-
-    The projection prevents locking of nearly incompressible materials. The result (e, 9 c, 3)
-    contains the coefficients of 3 orthonormal linear functions of each element, for the 9 shape
-    functions of each of the c components.
-
-    basis   finite-element basis of one displacement component
-    strain  strains of the shape functions at the quadrature points, by name (e, 9 c, q)
-    """
+    """Compute projections of volume strains onto 3 orthonormal linear functions of an
+    element (e, 9 c, 3), which prevents locking of nearly incompressible materials."""
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
     return np.asarray(
         volume @ _orthonormal_functions(basis, _linear_functions(basis)).transpose(0, 2, 1)
@@ -150,15 +138,8 @@ def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear_functions(basis: Basis) -> Field:
-    """Evaluate the linear functions 1, r and z of each element at its quadrature points (e, 3, q).
-
-    The volume strain of an element is projected onto these functions. They also represent the
-    pressure of nearly incompressible elements. r and z are measured from the middle of the element
-    and divided by its size. The linear functions of scikit-fem on quadrilaterals are bilinear and
-    therefore not suitable.
-
-    basis  displacement basis whose quadrature points are used
-    """
+    """Evaluate 1, r and z (e, 3, q) at quadrature points, from the middle of the element
+    in its size. The linear functions of scikit-fem are bilinear on quadrilaterals."""
     points, corners = basis.global_coordinates(), basis.mesh.p[:, basis.mesh.t]
     middle, size = corners.mean(axis=1), np.ptp(corners, axis=1)
     r, z = (points - middle[..., None]) / size[..., None]
@@ -166,14 +147,7 @@ def _linear_functions(basis: Basis) -> Field:
 
 
 def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
-    """Transform the linear functions 1, r and z of each element to orthonormal functions (e, 3, q).
-
-    The volume strain of an element is projected onto these functions. The scalar product is the
-    integral over the element with the weight r.
-
-    basis   displacement basis whose quadrature defines the scalar product
-    linear  values of 1, r and z at the q points at which the result is evaluated (e, 3, q)
-    """
+    """Transform 1, r and z at q points to orthonormal functions with the weight r (e, 3, q)."""
     functions = _linear_functions(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))

@@ -125,21 +125,14 @@ def _gmsh_model() -> Iterator[Any]:
 
 
 def _restore_broken_pipes() -> None:
-    """Restore Python's handling of broken pipes (SIGPIPE) after the start of gmsh.
-
-    gmsh replaces Python's handler, so that a broken pipe would terminate the process.
-    """
+    """Restore Python's handler of SIGPIPE, which gmsh replaces:
+    a broken pipe would end the process."""
     # Python permits a change of signal handlers in the main thread only.
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 
 def _set(gmsh: Any, options: Mapping[str, float]) -> None:
-    """Set numerical options of the mesher gmsh, such as the meshing algorithm.
-
-    gmsh     gmsh module
-    options  value of each option by its gmsh name
-    """
     for name, value in options.items():
         gmsh.option.setNumber(name, value)
 
@@ -187,16 +180,8 @@ def _draw(geometry: Any, outline: SectionOutline) -> None:
 
 
 def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> None:
-    """Set the division of a gmsh line into elements whose sizes form a geometric progression.
-
-    The number and the size ratio of the elements are those of the given coordinates. The number is
-    rounded up to an even number, because a surface can only be filled with quadrilaterals if its
-    boundary has an even number of elements.
-
-    geometry  gmsh geometry kernel of the current model
-    line      gmsh tag of the line
-    elements  coordinates of the element ends along the line
-    """
+    """Divide a gmsh line in geometric progression like `elements`, into an even number of elements,
+    because quadrilaterals cannot fill a surface with an odd boundary."""
     sizes = np.diff(elements)
     count = sizes.size + sizes.size % 2
     ratio = (sizes[-1] / sizes[0]) ** (1.0 / max(count - 1, 1))

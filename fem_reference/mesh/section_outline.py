@@ -156,11 +156,7 @@ def sufficient_box(body: Body, *, plane: bool = False) -> float:
 
 
 def _stiffness_difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
-    """Compute the relative difference of stiffness between a layer and the substrate [1].
-
-    The result is the larger of the relative differences of the shear modulus and the plane-strain
-    modulus. Used to estimate the size of the mesh that a layered body requires.
-    """
+    """Return the larger relative difference of the shear modulus and the plane-strain modulus."""
     return max(
         abs(layer.shear_modulus / substrate.shear_modulus - 1.0),
         abs(layer.plane_strain_modulus / substrate.plane_strain_modulus - 1.0),

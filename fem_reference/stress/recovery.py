@@ -121,13 +121,8 @@ def recovery_of(section: SectionMesh) -> Recovery:
 
 
 def _extrapolation_matrix(nodes: Field) -> Field:
-    """Return the matrix that extrapolates the stress from Gauss points to the nodes of an element.
-
-    The extrapolation from the 2 x 2 Gauss points is bilinear. The first coordinate of the Gauss
-    points varies slowest. The matrix has the shape (9, 4).
-
-    nodes  positions of the 9 nodes in the unit square (9, 2)
-    """
+    """Return the bilinear extrapolation from 2 x 2 Gauss points (first coordinate slowest)
+    to the 9 nodes of an element, at positions (9, 2) in the unit square: (9, 4)."""
     low, high = GAUSS
     along = [np.stack([(high - c) / (high - low), (c - low) / (high - low)], -1) for c in nodes.T]
     return np.einsum("na,nb->nab", *along).reshape(len(nodes), 4)

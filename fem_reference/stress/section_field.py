@@ -98,14 +98,8 @@ class SectionField:
         return self._sort_points(on_it & (self.material == material), self.points[0])
 
     def _sort_points(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
-        """Return the indices of chosen points of a meridional section, sorted by a coordinate.
-
-        Points with equal coordinates are sorted by their material, because a node on an interface
-        has one point for each material. Used for points along the axis or an interface.
-
-        chosen  True for the points to return (n,)
-        along   coordinate of every point, r or z (n,)
-        """
+        """Return the indices of chosen points, sorted by a coordinate, then by material:
+        a node on an interface has one point for each material."""
         found = np.flatnonzero(chosen)
         return found[np.lexsort((self.material[found], along[found]))]
 

@@ -86,15 +86,8 @@ def subsurface(
 
 
 def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
-    """Return the positions (r, z) of the nodes of a stress mesh in the unit of the scene (2, n).
-
-    Depths of nodes on interfaces are set to the exact sums of the layer thicknesses.
-
-    body     body with its layer thicknesses [length]
-    section  mesh of the body, in units of `length`
-    nodes    positions in units of `length` (2, n)
-    length   unit of length of the mesh [length]
-    """
+    """Convert node positions (2, n) from units of `length` to that of the scene.
+    Depths of interfaces are exact sums of the layer thicknesses."""
     points = nodes * length
     bottoms = np.cumsum([layer.thickness for layer in body.layers])
     for depth, bottom in zip(section.outline.interfaces, bottoms, strict=False):
@@ -105,29 +98,15 @@ def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: floa
 def _stress_mesh(
     body: Body, discretisation: FiniteElementDiscretisation, zone: float, *, plane: bool
 ) -> SectionMesh:
-    """Create the mesh for the stress in a body: a coarse mesh, each element divided into 4.
-
-    The coarse mesh has half the requested elements per radius. The elements of a mesh made for
-    displacements grow faster with depth. Such a mesh has a stress error of 2e-3 for any element
-    size at the surface.
-
-    body            layers and substrate; the unit of length is the radius of the loaded circle
-    discretisation  number of elements per radius, and size of the section
-    zone            least outer radius of the zone of equal elements, in the same unit
-    plane           True for a body in plane strain
-    """
+    """Create a mesh of half the elements per radius, each divided into 4. In the mesh for
+    displacements elements grow faster with depth, with a stress error of 2e-3 at any resolution."""
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
     return section_mesh(body, coarse, discretisation.box, zone, plane=plane).refined()
 
 
 def _refuse_incompressible(section: SectionMesh) -> None:
-    """Raise UnsupportedScene if a material of the mesh is nearly incompressible.
-
-    The stress is computed from the strain. The pressure in such a material does not follow from the
-    strain.
-
-    section  mesh with the materials of the elements
-    """
+    """Raise UnsupportedScene if a material is nearly incompressible:
+    its strain, from which the stress follows, does not determine the pressure."""
     if np.any(dilatation(section).mixed):
         raise UnsupportedScene(
             "a material is incompressible or nearly so, and the stress follows from the strain "
@@ -155,15 +134,13 @@ class _LoadPoints:
 def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[TractionAmplitude]:
-    """Compute amplitudes of surface tractions whose normal load equals that of the contact solve.
+    """Compute amplitudes at the integration points with the normal load of the contact solve.
 
     The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
     square root at the contact edge have a slightly larger load. All amplitudes are therefore
-    multiplied by the ratio of the loads. The amplitudes are those at the integration points.
+    multiplied by the ratio of the loads.
 
-    tractions  surface tractions on rings
-    points     integration points of the tractions
-    length     unit of length of the mesh [length]
+    length  unit of length of the mesh [length]
     """
     radii, weight = points.radii * length, points.weighted.sum(axis=0)
     found = tractions.amplitudes(radii)

@@ -1,4 +1,7 @@
-"""Tractions on the surface of a section at any radius, as amplitudes of angular harmonics."""
+"""Tractions on the surface of a section at any radius, as amplitudes of angular harmonics.
+
+A ring is a circle around the axis on the surface. A ray is the set of surface points at one angle.
+"""
 
 from __future__ import annotations
 
@@ -70,7 +73,7 @@ class SurfaceTractions:
     linear interpolant. This form matters for the stress near an edge, which depends on the
     tractions of the last element.
 
-    radii     radii of the rings, circles around the axis on the surface (rings,) [length]
+    radii     radii of the rings (rings,) [length]
     pressure  pressure (rings,) or (rings, angles) [force/length^2]
     angles    None for axisymmetric fields (rings,), or angles of the rays (angles,) for fields
               (rings, angles)
@@ -183,47 +186,28 @@ class SurfaceTractions:
 
     @property
     def _least_element_count(self) -> float:
-        """Least number of elements with pressure on any ray of the contact.
-
-        A ray is the set of surface points at one angle. Used to detect contacts with too few
-        elements to locate the contact edge.
-        """
+        """Least number of elements with pressure on a ray, which must resolve the edge."""
         return float(np.min(np.count_nonzero(self._ray_pressures > 0, axis=0)) / self._per_element)
 
     @property
     def _ray_pressures(self) -> Field:
-        """Pressure at the rings on every ray of the surface (rings, angles) [force/length^2].
-
-        A ring is a circle around the axis, a ray is the set of points at one angle. An axisymmetric
-        pressure has one ray.
-        """
+        """Pressure at the rings on every ray (rings, angles); one ray if it is axisymmetric."""
         return self.pressure.reshape(len(self.radii), -1)
 
     @cached_property
     def _angular_grid(self) -> AngularGrid:
-        """Angular grid of the rays on which the tractions are given, with transforms to harmonics.
-
-        A ray is the set of surface points at one angle. The rays cover the half circle, with the
-        first ray at θ = 0 or half a step away from it, or the whole circle from θ = 0.
-        """
         assert self.angles is not None
         return grid_at(self.angles)
 
     @property
     def _per_element(self) -> int:
-        """Number of rings on which tractions are given per element: 1 or POINTS_PER_EDGE.
-
-        There is one ring per element for hat functions, which have a ring on the axis. There are
-        POINTS_PER_EDGE rings for Gauss points, which have none on the axis.
-        """
+        """Number of rings per element: 1 for hat functions, which have a ring on the axis,
+        and POINTS_PER_EDGE for Gauss points, which have none."""
         return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
 
     @cached_property
     def _edge_radii(self) -> Field:
-        """Radius of the contact edge on every ray of the surface (angles,) [length].
-
-        A ray is the set of points at one angle. The radius is resolved between the rings.
-        """
+        """Radius of the contact edge, resolved between rings, on every ray (angles,) [length]."""
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
             element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])
@@ -232,14 +216,8 @@ class SurfaceTractions:
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
-        """Interpolate surface tractions linearly between rings, and transform them to harmonics.
-
-        The result contains amplitudes of the angular harmonics (families, 4, radii, harmonics), or
-        the interpolated tractions (1, 4, radii, 1) if they are axisymmetric.
-
-        radii  radii at which the tractions are evaluated [length]
-        rays   q_r, q_theta, shear along the load, and pressure on rings and rays (4, rings, angles)
-        """
+        """Interpolate q_r, q_theta, shear along the load, and pressure
+        (4, rings, angles) between rings, as amplitudes (families, 4, radii, harmonics)."""
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
         return self._transform_angles(np.swapaxes(found, 1, 2))
 
@@ -280,26 +258,16 @@ class SurfaceTractions:
         return self._transform_angles(factors, fine)[..., : self._angular_grid.highest + 1]
 
     def _transform_angles(self, values: Field, grid: AngularGrid | None = None) -> Field:
-        """Transform surface tractions at several angles to amplitudes of angular harmonics.
-
-        The result has the shape (families, 4, radii, harmonics). Axisymmetric tractions are
-        returned unchanged, as one family.
-
-        values  q_r, q_theta, shear along the load, and pressure (4, radii, angles)
-        grid    angular grid of the values; None for the rays on which these tractions are given
-        """
+        """Transform values at angles (4, radii, angles) to (families, 4, radii, harmonics);
+        axisymmetric ones are unchanged, as one family."""
         if self.angles is None:
             return values[None]
         return (grid or self._angular_grid).amplitudes(values, COMPONENTS)
 
 
 def _amplitude_of(n: int, tractions: Field, *, turned: bool) -> TractionAmplitude:
-    """Create the amplitude of one angular harmonic of the tractions on the surface.
-
-    n          number of the harmonic
-    tractions  amplitudes of q_r, q_theta and p (3, radii) [force/length^2]
-    turned     True for a harmonic turned by a quarter wave; that of n = 0 is torsion
-    """
+    """Create harmonic n of the tractions q_r, q_theta, p (3, radii) [force/length^2].
+    `turned` means turned by a quarter wave, which is torsion for n = 0."""
     if turned and n == 0:
         return TractionAmplitude(TORSION, -tractions[1:2])
     of = motion(n)
@@ -307,11 +275,9 @@ def _amplitude_of(n: int, tractions: Field, *, turned: bool) -> TractionAmplitud
 
 
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
-    """Compute the smooth factor p / √(1 - r²/a²) of the pressure p on one ray, at given radii.
+    """Compute p / √(1 - r²/a²) of the pressure p on one ray, which varies slowly up to the edge a.
 
-    A ray is the set of surface points at one angle, and a the radius of the contact edge on the
-    ray. The factor varies slowly up to the edge and can therefore be interpolated. Near the edge
-    the factor is a straight line, which is fitted without the last element.
+    Near the edge the factor is a straight line, which is fitted without the last element.
 
     radii        radii at which the factor is evaluated [length]
     at, pressed  radii and pressures of the rings with pressure

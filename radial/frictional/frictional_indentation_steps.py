@@ -192,15 +192,8 @@ class FrictionalSteps(StepsOnRings):
         return solve
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
-        """Estimate the contact radius under a prescribed normal load, as an initial guess [length].
-
-        The estimate is extrapolated from the previous contact by a power law. Before first contact
-        the estimate is the radius without friction. The second result is the number of radii tried
-        for the estimate.
-
-        target  prescribed normal force or approach
-        before  state of the previous contact; None before first contact
-        """
+        """Estimate the contact radius [length] by a power law from the preceding state,
+        or without friction before first contact; also return the number of radii tried."""
         if before is None:
             found = normal_contact(self.coupling.bodies, self.scene.indenter, target)
             return found.contact.radius, found.iterations
@@ -209,15 +202,8 @@ class FrictionalSteps(StepsOnRings):
 
     @staticmethod
     def _load_exponent(target: Target, before: FrictionalState | None) -> float:
-        """Estimate the exponent b of the power law: force (or approach) ∝ contact radius to the b.
-
-        Used for the initial guess and the first secant step of the contact radius. The exponent is
-        that of the previous state if the same quantity was prescribed there. Otherwise it is 3 for
-        a force and 2 for an approach, as in Hertz contact.
-
-        target  prescribed normal force or approach
-        before  state of the previous contact; None before first contact
-        """
+        """Estimate b in force (or approach) ∝ aᵇ:
+        that of the preceding state if it prescribed the same quantity, else of Hertz contact."""
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
         return 3.0 if target.approach is None else 2.0
@@ -295,15 +281,8 @@ class FrictionalSteps(StepsOnRings):
         return add_contact_displacements(increment, self.scene.rig)
 
     def _shear_at_rings(self, state: FrictionalState, p: Array, r: Array) -> Array:
-        """Interpolate the radial shear of a contact to the output rings (n,) [force/length²].
-
-        The ratio of shear to friction limit is interpolated from the nodes and multiplied by the
-        friction limit at the rings. This is more accurate than interpolation of the shear.
-
-        state  state at the end of the increment
-        p      pressure at the rings (n,) [force/length²]
-        r      radii of the rings (n,) [length]
-        """
+        """Interpolate the shear [force/length²] to the output rings of radii r and pressure p (n,):
+        as a share of the friction limit, which is more accurate than the shear itself."""
         end = state.end
         share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
         share = np.concatenate([[0.0], share, share[-1:]])
@@ -313,14 +292,8 @@ class FrictionalSteps(StepsOnRings):
 def _reference_displacement(
     before: FrictionalState | None, strain: float
 ) -> Callable[[Array], Array]:
-    """Return the radial displacement that stick requires, as a function of the radius [length].
-
-    Sticking points keep the displacement of the preceding state. The displacement of the lower body
-    by the change of the bulk strain is subtracted.
-
-    before  preceding state; None before first contact
-    strain  bulk strain of the lower body at the end of the increment [1]
-    """
+    """Return the radial displacement that stick requires, as a function of the radius [length]:
+    that of the preceding state, less the change of the bulk strain of the lower body."""
     if before is None:
         return lambda radii: -strain * radii
     end, more = before.end, strain - before.strain
@@ -355,42 +328,22 @@ def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Arr
 
 
 def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array:
-    """Return contact radii between the start and the end of an increment, in equal ratios [length].
-
-    The contact with friction is solved at each of these radii, because the stick zone depends on
-    the path. The start and the end are not included.
-
-    start_radius, end  contact radius at the start and at the end of the increment [length]
-    growth             largest ratio of adjacent radii
-    """
+    """Return contact radii between start and end, exclusive,
+    in equal ratios [length], because the stick zone depends on the path."""
     steps = max(ceil(abs(log(end / start_radius)) / log(growth)), 1)
     return np.geomspace(start_radius, end, steps + 1)[1:-1]
 
 
 def _guess_slip_signs(was: FrictionalContact | None, rings: Rings) -> Signs:
-    """Return an initial guess of the slip zone of a contact, from another solved contact (n + 1,).
-
-    The values are the signs of the shear of slipping nodes, and 0 for sticking nodes. A node takes
-    the value of the other contact at an equal fraction of the contact radius.
-
-    was    other contact; None for full stick
-    rings  n + 1 nodes of the new contact
-    """
+    """Return the slip signs of another contact at equal r/a (n + 1,), or full stick."""
     if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
 def _slip_direction_residual(end: FrictionalContact, friction: CoulombFriction) -> float:
-    """Compute the residual of the friction law's condition that slip opposes the shear [1].
-
-    The residual is |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA, with the friction limit b, the shear q and
-    the slip Δs of the increment. It is zero where slip opposes a shear at the limit. Slip below
-    round-off is omitted.
-
-    end       solved contact at the end of the increment
-    friction  friction law
-    """
+    """Compute the residual of slip opposing the shear: |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA,
+    with the friction limit b. Slip increments Δs below round-off are omitted."""
     slip_increment = (
         end.slip_increment * (end.sliding != 0) * (np.abs(end.slip_increment) > REST * end.approach)
     )
@@ -403,12 +356,6 @@ def _slip_direction_residual(end: FrictionalContact, friction: CoulombFriction) 
 
 
 def _contact_status(state: FrictionalState) -> ContactStatus:
-    """Return the contact status of a contact with friction under a normal load.
-
-    The status is full stick, partial slip, or no stick area left.
-
-    state  state at the end of the increment
-    """
     sticks = state.end.sliding[1:-1] == 0
     if np.all(sticks):
         return ContactStatus.FULL_STICK

@@ -1,9 +1,10 @@
 """Tractions on rings, and the response of half-spaces to them.
 
-Tractions are hat functions (linear between nodes) in x = r/a, times the factor √(1-x²), which is
-the behaviour of tractions at the edge. The nodes are dense where tractions have kinks: at the
-border of the stick zone, at the edge and at the axis. The response of half-spaces to a hat has a
-closed form or uses Gauss quadrature. Lengths are in units of the contact radius a.
+Tractions are hat functions φ (linear between nodes) in x = r/a, times the factor √(1-x²), which is
+the behaviour of tractions at the edge. An element is the interval between two nodes. The nodes are
+dense where tractions have kinks: at the border of the stick zone, at the edge and at the axis. The
+response of half-spaces to a hat has a closed form or uses Gauss quadrature. Lengths are in units of
+the contact radius a.
 """
 
 from __future__ import annotations
@@ -97,10 +98,9 @@ class Rings:
         """Direct responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
-        radial shear, ∫ G₁ φ s ds. φ is the hat function of a node. The kernel G_m = ∫₀^∞ J_m(kx)
-        J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals (Gradshteyn and
-        Ryzhik 6.512.1, 8.1). Rows are positions x of displacements, columns nodes of tractions.
-        Lengths are in units of the contact radius.
+        radial shear, ∫ G₁ φ s ds. The kernel G_m = ∫₀^∞ J_m(kx) J_m(ks) dk is logarithmic at s = x
+        and has complete elliptic integrals (Gradshteyn and Ryzhik 6.512.1, 8.1). Rows are positions
+        x of displacements, columns nodes of tractions.
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
@@ -131,9 +131,9 @@ class Rings:
         """Coupling responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
-        pressure, (1/x) ∫₀ˣ φ s ds. φ is the hat function of a node. The kernel ∫₀^∞ J₀(kr) J₁(ks)
-        dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of
-        displacements, columns nodes of tractions. Lengths are in units of the contact radius.
+        pressure, (1/x) ∫₀ˣ φ s ds. The kernel ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0
+        (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of displacements, columns nodes of
+        tractions.
         """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]
@@ -148,14 +148,8 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrate_hats(self, power: int) -> tuple[Array, Array]:
-        """Integrate the hat functions φ of the nodes over each element of the radius, ∫ φ xᵐ dx.
-
-        An element is the interval between two nodes. Hat functions contain the factor √(1-x²) of
-        tractions. The first result (n,) belongs to the hats of the inner nodes of the elements, the
-        second to those of the outer nodes.
-
-        power  exponent m of the radius x = r/a
-        """
+        """Integrate the hats φ over each element, ∫ φ xᵐ dx with m = `power`:
+        those of the inner nodes (n,), and those of the outer nodes (n,)."""
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
         s = inner + length * v
@@ -165,15 +159,12 @@ class Rings:
         return left.sum(-1), right.sum(-1)
 
     def _weighted_hats(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
-        """Evaluate the hat functions of nodes at points of the elements, multiplied by weights.
+        """Evaluate the hats of the inner and of the outer node of each element, times weights.
 
-        An element is the interval between two nodes. The two results (…, n, points) are the hats of
-        the inner and of the outer node of each element. Hats contain the factor √(1-x²) of
-        tractions. In the last element the hat of the inner node represents the whole traction.
+        The shape is (…, n, points). In the last element the hat of the inner node represents the
+        whole traction.
 
-        s        points in the elements, over the contact radius (…, n, points)
-        share    fraction of the element between its inner node and the point (…, n, points)
-        weights  factors of the result, such as quadrature weights (…, n, points)
+        share  fraction of the element between its inner node and the point
         """
         root = _edge_root(self.x)
         known = _edge_root(s) * weights
@@ -185,13 +176,8 @@ class Rings:
 
     @staticmethod
     def _sum_at_nodes(left: Array, right: Array) -> Array:
-        """Sum integrals over the elements of the radius at their nodes (…, n + 1).
-
-        An element is the interval between two nodes. Each node receives the contributions of both
-        adjacent elements.
-
-        left, right  contributions of every element to its inner and to its outer node (…, n)
-        """
+        """Sum contributions (…, n) of elements at their inner (left) and outer (right) nodes:
+        (…, n + 1)."""
         total = np.zeros((*left.shape[:-1], left.shape[-1] + 1))
         total[..., :-1] += left
         total[..., 1:] += right
@@ -228,12 +214,6 @@ class Rings:
 
 
 def _edge_root(x: Array) -> Array:
-    """Return √(1 - x²), the factor by which tractions decrease to zero at the contact edge.
-
-    Pressure and shear are products of this factor and hat functions.
-
-    x  radii over the contact radius, at most 1 (any shape)
-    """
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 

@@ -130,12 +130,7 @@ class Disc:
         return np.asarray(self.approach - self.profile.evaluate_abel(t) + changed)
 
     def abel_function_rate(self, t: Array) -> Array:
-        """Evaluate the rate dG/dt of the function G of which the pressure is the Abel transform.
-
-            p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
-
-        p is the pressure at the radius a x, E* the contact modulus, a the contact radius. The unit
-        of the rate is [length].
+        """Evaluate the rate dG/dt of the function G of `evaluate_abel_function` [length].
 
         t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
@@ -215,15 +210,8 @@ class _Galerkin:
 
 @cache_within_bytes(MAX_CACHED)
 def _check_point_functions(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Evaluate Legendre polynomials and cosines at points where the contact equation is checked.
-
-    The results are the even polynomials P_2n(t), shape (points, count), and cos κt, shape (points,
-    κ). The points t are evenly spaced between the axis (0) and the contact edge (1). The results
-    are cached.
-
-    waves  quadrature over dimensionless wavenumbers κ
-    count  number of polynomials
-    """
+    """Evaluate P_2n(t) (points, count) and cos κt (points, κ) at the points,
+    evenly spaced between axis and edge, where the contact equation is checked."""
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)
     return polynomials, np.cos(np.multiply.outer(t, waves.rule[0]))

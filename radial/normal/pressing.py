@@ -220,14 +220,10 @@ def contact_at_target(
 
 
 def _contact_at_rim(solve: Callable[..., Disc], target: Target, whole: Disc) -> Disc:
-    """Solve the frictionless contact over the whole face of an indenter with a rim.
+    """Solve the contact over the whole face of an indenter with a rim.
 
-    The contact radius is that of the rim. Force and pressure are linear in the approach, so two
-    solved contacts determine the approach.
-
-    solve   function that solves the contact of a given radius and approach [length]
-    target  prescribed normal force or approach
-    whole   contact that just reaches the rim
+    Force and pressure are linear in the approach, so that two contacts determine the solution:
+    `whole`, which just reaches the rim, and a second one.
     """
     missing = further = target.prescribed_value - target.controlled_value(whole)
     if target.force is not None:

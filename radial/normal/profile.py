@@ -163,27 +163,16 @@ def _piecewise_profile(
 
 
 def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:
-    """Fit a Chebyshev series to the undeformed gap of an indenter over a contact (count,) [length].
-
-    The polynomials have the argument 2r/a - 1, with the radius r and the contact radius a.
-
-    indenter  shape of the indenter
-    radius    contact radius a [length]
-    count     number of Chebyshev points and coefficients
-    """
+    """Fit a Chebyshev series in 2r/a - 1 to the undeformed gap,
+    with a = `radius` (count,) [length]."""
     places, fit = _chebyshev_fit(count)
     return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))
 
 
 @cache
 def _chebyshev_fit(count: int) -> tuple[Array, Array]:
-    """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series at them.
-
-    The matrix (count, count) maps values at the points to coefficients of the polynomials of
-    2x - 1. Used to represent the undeformed gap over a contact.
-
-    count  number of points and of coefficients
-    """
+    """Return Chebyshev points on 0 < x < 1, and the matrix (count, count)
+    from values at them to the coefficients of polynomials of 2x - 1."""
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
     fit[0] /= 2
@@ -192,16 +181,12 @@ def _chebyshev_fit(count: int) -> tuple[Array, Array]:
 
 @cache
 def _abel_matrix(count: int, fineness: int) -> Array:
-    """Compute the matrix that maps the slope f' of the undeformed gap to its Abel transform S.
+    """Compute the matrix (count, count + 1) from the slope f' of the gap to its Abel transform S.
 
         S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
 
     f' has Chebyshev coefficients (count,) in 2x - 1, with x = r/a. S has Legendre coefficients
-    (count + 1,) in 2t - 1. The shape is (count, count + 1); a row of coefficients of f' is
-    multiplied from the left.
-
-    count     number of Chebyshev coefficients of the slope
-    fineness  factor on the number of quadrature points, 1 by default
+    (count + 1,) in 2t - 1. A row of coefficients of f' is multiplied from the left.
     """
     t, weights = unit_gauss(count + 1)
     angles, shares = unit_gauss((ANGLES + count) * fineness)

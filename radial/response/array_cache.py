@@ -57,10 +57,4 @@ def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
 
 def _array_bytes(value: Any) -> int:
-    """Return the memory of an array, or of all arrays of a tuple [byte].
-
-    Used to limit the size of a cache.
-
-    value  array, or tuple of arrays
-    """
     return sum(map(_array_bytes, value)) if isinstance(value, tuple) else int(value.nbytes)

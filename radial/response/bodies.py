@@ -145,11 +145,6 @@ def least_wavenumber(stack: Stack, radius: float) -> float:
 
 
 def _shear_moduli(stack: Stack) -> list[float]:
-    """Return the shear moduli of the layers and the base of a body, as a list [force/length²].
-
-    A rigid base is omitted.
-
-    stack  the body with its layers
-    """
+    """Return the shear moduli of the layers and the base; a rigid base is omitted."""
     films = [film.shear_modulus for film in stack.layers]
     return films if stack.base is None else [*films, stack.base.shear_modulus]

@@ -103,14 +103,8 @@ class Waves(NamedTuple):
 
     @cache_within_bytes(MAX_CACHED)
     def _legendre_transforms(self, count: int) -> Array:
-        """Compute the cosine transforms of Legendre polynomials P_l(2t - 1) at all wavenumbers κ.
-
-            ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count
-
-        j is the spherical Bessel function. The shape is (count, κ). The results are cached.
-
-        count  number of polynomials
-        """
+        """Compute ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),
+        l < count, with the spherical Bessel function j (count, κ)."""
         half = self.rule[0] / 2
         found = np.empty((count, len(half)))
         for order, row in enumerate(found):

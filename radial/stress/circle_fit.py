@@ -63,9 +63,6 @@ def axisymmetric_circle(
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
 
-    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
-    centre over the radius. It is used to compute the stress below the surface.
-
     radii               radii of the rings (n,) [length]
     radius              contact radius [length]
     outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the rings (n,)
@@ -89,9 +86,8 @@ def fit_tangential_circle(
 ) -> LoadedCircle:
     """Fit a loaded circle to the pressure and shear of a contact with tangential load.
 
-    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
-    centre over the radius. It is used to compute the stress below the surface. Its normal force is
-    that of the nodal pressures. The angles cover 0 to π, and the other half is the mirror image.
+    Its normal force is that of the nodal pressures. The angles cover 0 to π, and the other half is
+    the mirror image.
 
     radii               radii of the nodes (n,) [length]
     angles              angles from 0 to π (J + 1,) [radian]
@@ -139,12 +135,8 @@ def fit_tangential_circle(
 
 
 def _refuse_few(rings: int) -> None:
-    """Raise UnsupportedScene if too few rings resolve the edge of the contact.
-
-    The stress below the surface requires an accurate pressure near the edge.
-
-    rings  number of rings near the edge, or in an axisymmetric contact
-    """
+    """Raise UnsupportedScene if too few rings resolve the edge,
+    where the stress needs the pressure."""
     if rings < FEWEST:
         raise UnsupportedScene(
             f"{rings} rings resolve the edge of the contact, and the stress below the surface "
@@ -216,14 +208,7 @@ def _fit_edge_circle(
 
 
 def _extend_outwards(ratio: Array, known: Mask) -> Array:
-    """Extend a field at points on rays by its outermost known value on each ray.
-
-    Used for the ratio of shear to pressure, which is inaccurate near the contact edge. Values
-    within the outermost known point of a ray are unchanged. The shape is (n, rays).
-
-    ratio  field at the points, from the axis outwards on each ray (n, rays)
-    known  true for known values (n, rays)
-    """
+    """Extend a field (n, rays) from the axis outwards by its outermost known value on each ray."""
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
     position = np.minimum(np.arange(len(known))[:, None], last)
     return np.asarray(np.take_along_axis(ratio, position, axis=0))
@@ -232,11 +217,9 @@ def _extend_outwards(ratio: Array, known: Mask) -> Array:
 def _full_circle_spline(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
-    """Create a spline over the full circle through a field on half a circle and its mirror image.
+    """Create a spline over the full circle through a field on half of it and its mirror image.
 
     field   values at the nodes (n, J + 1)
-    r       radii of the nodes (n,)
-    angles  angles from 0 to π (J + 1,) [radian]
     sense   1 for a field that is even about θ = 0, -1 for an odd field
     degree  degree of the spline in r; the degree in θ is 3
     """
@@ -249,14 +232,7 @@ def _full_circle_spline(
 
 
 def _normal_force(radii: Array, angles: Array, p: Array) -> float:
-    """Compute the normal force ∫ p dA of pressures at nodes of half a circle [force].
-
-    The pressure is linear in r between the nodes. The force includes the mirror image.
-
-    radii   radii of the nodes (n,) [length]
-    angles  angles of the nodes from 0 to π (J + 1,) [radian]
-    p       pressure at the nodes (n, J + 1) [force/length²]
-    """
+    """Compute ∫ p dA [force] of p (n, J + 1) on half a circle and its mirror image, linear in r."""
     rings = 2 * np.asarray(np.trapezoid(p, angles, axis=1))
     inner, outer = radii[:-1], radii[1:]
     parts = (2 * inner + outer) * rings[:-1] + (inner + 2 * outer) * rings[1:]

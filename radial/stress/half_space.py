@@ -73,8 +73,7 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
     The integrals are ∫ G~ exp(-κz) f dκ with f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x, in this
     order. The Bessel functions have the argument κx. G~ = ∫₀¹ G(t) cos κt dt is the cosine
-    transform of the function G of which the pressure is the Abel transform. Lengths are in units of
-    the contact radius.
+    transform of the function G of which the pressure is the Abel transform.
 
     contact  frictionless contact, which gives G
     x        radii of the points over the contact radius, above 0 (n,)
@@ -113,16 +112,10 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
 
 def _quadrature_offsets(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
-    """Return quadrature points and weights for the stress below a pressure (n, points).
+    """Return t - x (n, points) and weights of a quadrature over t from axis (0) to edge (1).
 
-    The integrals are over t, a coordinate between the axis (0) and the contact edge (1). Their
-    integrands contain 1/R with R = √(x² + (z + it)²), which is large near t = x. The points are
-    dense there, by the substitution t = x + z sinh y. The first result is t - x, the second the
-    weights.
-
-    contact  frictionless contact, whose number of polynomials determines the number of points
-    x        radii of the points of evaluation over the contact radius (n,)
-    depth    depth z over the contact radius, above 0
+    Integrands contain 1/R with R = √(x² + (z + it)²), large near t = x. The points are dense there,
+    by the substitution t = x + z sinh y.
     """
     first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
     count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
@@ -134,15 +127,8 @@ def _quadrature_offsets(contact: Disc, x: Array, depth: float) -> tuple[Array, A
 
 
 def _complex_distances(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
-    """Compute the complex distances c = z + it and R = √(x² + c²) for the stress below a pressure.
-
-    The integral of the waves exp(-κc) J₀(κx) over all wavenumbers κ is 1/R. Lengths are in units of
-    the contact radius.
-
-    x       radii of the points of evaluation (n, 1)
-    depth   depth z
-    offset  t - x at the quadrature points, where t is the variable of integration (n, points)
-    """
+    """Compute c = z + it and R = √(x² + c²) at t = x + offset, for x (n, 1) and offset (n, points).
+    1/R is the integral of exp(-κc) J₀(κx) over κ."""
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
     return c, np.asarray(np.sqrt(depth**2 - offset * (x + t) + 2j * depth * t))

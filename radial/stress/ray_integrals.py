@@ -64,26 +64,18 @@ def below_circle(
 
 
 def _count_intervals(smallest: Array) -> Array:
-    """Return the number of intervals of a quadrature that grow from a smallest width to 1.
-
-    The widths grow in constant ratio. The number is not rounded to an integer. Used for the
-    quadrature over angles and along rays below a loaded circle.
-
-    smallest  width of the smallest interval (any shape)
-    """
+    """Return the number, not rounded, of intervals growing from `smallest` to 1 in constant
+    ratio."""
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
 def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return the directions of rays from points inside a loaded circle, and weights (n, rays).
+    """Return angles of rays from the outward direction [radian], and weights (n, rays).
 
-    The stress below each point is an integral of the tractions along these rays. Directions are
-    angles from the outward direction [radian]. Rays are dense where they are nearly tangential to
-    the edge.
+    Rays are dense where they are nearly tangential to the edge.
 
-    r         distances of the points from the centre over the radius, below 1 (n,)
-    count     number of intervals of a quadrant
-    fineness  factor on the number of angles, 1 by default
+    r      distances of the points from the centre over the radius, below 1 (n,)
+    count  number of intervals of a quadrant
     """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
@@ -96,14 +88,7 @@ def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _interval_ends(smallest: Array, count: int) -> Array:
-    """Return the ends of intervals of a quadrature from 0 to 1 that grow in constant ratio.
-
-    The ends are 0, the smallest value, …, 1, with the shape (…, count + 1). Used for the quadrature
-    over angles and along rays below a loaded circle.
-
-    smallest  first end after 0 (…)
-    count     number of intervals
-    """
+    """Return the ends 0, smallest, …, 1 of intervals that grow in constant ratio (…, count + 1)."""
     powers = np.arange(count - 1, -1, -1) / max(count - 1, 1)
     grown = smallest[..., None] ** powers
     return np.concatenate([np.zeros_like(grown[..., :1]), grown], axis=-1)
@@ -321,14 +306,8 @@ def _finite_part(
 
 
 def _sum_over_rays(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
-    """Sum displacement and stress over all rays of each point, in x, y, z components (9, n).
-
-    The results are u_x, u_y, u_z and σ_xx, yy, zz, yz, xz, xy below a loaded circle.
-
-    rays              u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st by each ray, with s along the ray
-                      and t across (8, n, rays)
-    cos, sin, weight  cosine and sine of the direction, and quadrature weight of each ray (n, rays)
-    """
+    """Sum u_s, u_t, u_z, σ_ss, tt, zz, sz, st (8, n, rays), with s along and t across each ray,
+    over the rays to u_x, u_y, u_z, σ_xx, yy, zz, yz, xz, xy (9, n)."""
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin
     each = (

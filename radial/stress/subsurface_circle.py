@@ -87,13 +87,8 @@ class SubsurfaceCircle:
 
 
 def _cartesian_components(polar: Array, cos: Array, sin: Array) -> Array:
-    """Transform displacement and stress from cylindrical to Cartesian components (levels, 9, n).
-
-    The results are u_x, u_y, u_z and σ_xx, yy, zz, yz, xz, xy.
-
-    polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ at n points of each depth (levels, 9, n)
-    cos, sin  cosine and sine of the angle θ of the points about the axis (n,)
-    """
+    """Transform u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ to u_x,
+    u_y, u_z, σ_xx, yy, zz, yz, xz, xy, both (levels, 9, n)."""
     u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
     mean, half = (rr + tt) / 2, (rr - tt) / 2
     c2, s2 = cos * cos - sin * sin, 2 * sin * cos

@@ -68,21 +68,18 @@ def _recur_upwards(
     whole: Array,
     small: Array,
 ) -> None:
-    """Compute the kernels G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk, m ≥ 1, of pairs with r near s.
+    """Write the kernels G_m(r, s), m ≥ 1, of pairs with r near s into `found`, which contains G_0.
 
-    G_m = Q_{m-½}(χ)/(π√(rs)) with the Legendre function Q and χ = (r² + s²)/(2rs). The upward
-    recurrence
+    G_m = Q_{m-½}(χ)/(π√(rs)). The upward recurrence
 
         (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}
 
-    is accurate for χ near 1. The kernels are written into the array `found`, which contains G_0.
+    is accurate for χ near 1.
 
     found          kernels of all pairs, harmonics on the first axis (M + 1, …) [1/length]
     near           true for the pairs to be computed (…)
-    chi            χ of the pairs to be computed
     moment, total  r s and r + s of the pairs to be computed [length², length]
-    whole          complete elliptic integral K of the modulus √(1 - `small`), for the pairs to be
-                   computed
+    whole          complete elliptic integral K of the modulus √(1 - `small`)
     small          (r - s)²/(r + s)² of the pairs to be computed
     """
     if len(found) > 1:

@@ -90,15 +90,8 @@ def half_space_integrals(nodes: tuple[float, ...], highest: int) -> HalfSpaceInt
 
 
 def _evaluate_hats(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
-    """Evaluate the hat functions of the inner and of the outer node of elements at given radii.
-
-    An element is the interval between two adjacent nodes of the radius, where the two hat functions
-    are linear and sum to 1. Both results have the shape (elements, points).
-
-    x        radii of all nodes
-    element  number of each element, which is the index of its inner node (elements,)
-    r        radii of the points in each element (elements, points)
-    """
+    """Evaluate the linear hats of the inner and of the outer node (elements, points)
+    at r of that shape; `element` is the index of the inner node in x (elements,)."""
     inner, outer = x[element, None], x[element + 1, None]
     return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
 
@@ -141,12 +134,7 @@ def _quadrature_pairs(x: Array) -> Iterator[Pairs]:
 
 
 def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
-    """Return Gauss points and weights of the unit square, for double integrals over two elements.
-
-    The results are flat arrays of equal length: first coordinates, second coordinates and weights.
-
-    first, second  number of points in the first and in the second direction
-    """
+    """Return two coordinates and weights of Gauss points of the unit square, as flat arrays."""
     v, of_v = unit_gauss(first)
     u, of_u = unit_gauss(second)
     return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()

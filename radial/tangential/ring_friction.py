@@ -83,13 +83,7 @@ def solve_increment(
 
 
 def _force_reaches_limit(friction: CoulombFriction, loads: Loads) -> bool:
-    """Return True if the tangential force alone is at the friction limit of the normal force.
-
-    Raise GrossSliding above the limit.
-
-    friction  friction law
-    loads     prescribed loads and rigid motions
-    """
+    """Return True for a force at the friction limit; raise GrossSliding above the limit."""
     force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.largest_tangential_force(W)
     if not force or most is None or not reaches_limit(force, most):
@@ -99,13 +93,7 @@ def _force_reaches_limit(friction: CoulombFriction, loads: Loads) -> bool:
 
 
 def _prescribed_shear_loads(loads: Loads) -> Array:
-    """Return the prescribed tangential forces along and across θ = 0, and the torque (3,).
-
-    θ is the angle about the axis of revolution. The units are force and force length. A component
-    whose conjugate motion is prescribed is 0.
-
-    loads  prescribed loads and rigid motions of the indenter
-    """
+    """Return forces along and across θ = 0, and torque (3,); 0 where the motion is prescribed."""
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 

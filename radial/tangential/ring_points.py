@@ -105,12 +105,7 @@ class ContactPoints:
         return self._distribute_to_points(self.arms)
 
     def _distribute_to_points(self, of_nodes: Array) -> Array:
-        """Distribute integrals over the radius to the points of all angles (n count,).
-
-        Every point of a ring receives an equal share of 2π times the integral of its node.
-
-        of_nodes  integrals ∫ φ … dr of the n nodes with their hat functions φ (n,)
-        """
+        """Give the points (n count,) equal shares of 2π times the integral of a node (n,)."""
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
@@ -205,22 +200,14 @@ class ContactPoints:
 
     @cached_property
     def _harmonic_transform(self) -> Array:
-        """Matrices that map values at the angles of a ring to amplitudes of harmonics.
-
-        The shape is (3, families × (J + 1), count): components r, θ, z, harmonics 0 … J of each
-        family, and `count` angles. In the symmetric family p and q_r are ∝ cos mθ and q_θ ∝ sin mθ.
-        A full circle also has the antisymmetric family: p and q_r ∝ sin mθ, q_θ ∝ -cos mθ.
-        """
+        """Matrices (3, families × (J + 1), count) from r, θ, z components at the angles
+        of a ring to harmonics; a full circle adds p and q_r ∝ sin mθ and q_θ ∝ -cos mθ."""
         return np.concatenate(self.circle.harmonic_matrices(self.highest), axis=1)
 
     @cached_property
     def _harmonic_energies(self) -> Array:
-        """Galerkin compliance matrices between nodes, times the norm of each harmonic.
-
-        The shape is (families × (J + 1), 3, 3, n, n), for the harmonics 0 … J of the symmetric and,
-        on a full circle, of the antisymmetric family. The norm is the integral over the circle, π
-        for cos² mθ. The values are doubled for the harmonics 0 and J: 2π.
-        """
+        """Galerkin compliances (families × (J + 1), 3, 3, n, n) times the norm of each harmonic:
+        the integral π of cos² mθ over the circle, and 2π for the harmonics 0 and J."""
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
         families = self._harmonic_transform.shape[1] // len(norms)

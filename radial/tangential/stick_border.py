@@ -112,17 +112,8 @@ def _distance_from_slip(
     j: NDArray[np.intp],
     direction: Array,
 ) -> Array:
-    """Compute the distance from gross slip d = µp - q·n of sticking points [force/length²].
-
-    q is the shear and n the direction of the shear in the slip zone. d is zero at the border of the
-    stick zone, which is found from d. The value is NaN for points that do not stick.
-
-    directions, size  angle and magnitude of the shear of all points (n, J) [radian, force/length²]
-    bound             friction limit µp of all points (n, J) [force/length²]
-    sticks            true for sticking points (n, J)
-    near, j           first and second indices of the points to evaluate (k,)
-    direction         angle of n at these points (k,) [radian]
-    """
+    """Compute d = µp - q·n [force/length²] at points (near, j) (k,), from angle and size
+    of q and µp of all points (n, J), and the angle of n; NaN where points do not stick."""
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
     d = bound[near, j] - size[near, j] * np.cos(directions[near, j] - direction)
@@ -132,18 +123,15 @@ def _distance_from_slip(
 def _border_distance(
     last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
-    """Estimate the distance of the border of the stick zone from the last sticking point (k,) [1].
+    """Estimate the distance of the border from the last sticking point (k,) [1].
 
-    The unit is the distance between this point and the next one. d = µp - q·n is the distance of a
-    point from gross slip: friction limit minus the component of the shear in the direction of slip.
-    d is proportional to the power 1/2 or 3/2 of the distance from the border. Without data the
-    result is 0.5.
+    Its unit is the distance to the next point. d is proportional to the power 1/2 or 3/2 of the
+    distance from the border. Without data the result is 0.5.
 
     last, before, further  d of the last three sticking points, from the border inwards (k,)
     deep                   true where enough points stick to distinguish the powers 1/2 and 3/2 (k,)
     even                   distance to the next point over the distance to the previous point (k,)
-    table                  coefficients of the polynomial in last/before that gives the distance for
-                           the power 1/2
+    table                  polynomial in last/before that gives the distance for the power 1/2
     """
     # Interpolate d to equal distances of points: d² is linear in the position near a root.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
@@ -156,15 +144,8 @@ def _border_distance(
 
 
 def _spacing_ratio(places: Array, at: NDArray[np.intp], step: int) -> Array:
-    """Return the ratio of the distances of points to their next and previous point [1].
-
-    Used to interpolate fields near the border of the stick zone to equal distances of points. The
-    result is 1 for a point without a previous point.
-
-    places  coordinates of all points along a ray or a ring
-    at      indices of the points for which the ratio is computed
-    step    +1 or -1, the index step from a point to its next point
-    """
+    """Return the distance to the next point over that to the previous point;
+    1 without a previous point."""
     before = at - step
     known = (before >= 0) & (before < len(places))
     behind = np.where(known, places[at] - places[np.clip(before, 0, len(places) - 1)], 1.0)
@@ -174,15 +155,12 @@ def _spacing_ratio(places: Array, at: NDArray[np.intp], step: int) -> Array:
 def _slip_direction(
     directions: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
-    """Find the angle of the shear beyond the border of the stick zone, and its change per point.
+    """Find the angle of the shear at the first slipping point, and its change per point [radian].
 
-    Both results [radian] belong to the first slipping point beyond the border. If the point beyond
-    the border does not slip, the angle is that of the last sticking point and the change is 0.
+    If that point sticks, the angle is that of the last sticking points (at, j), and the change 0.
 
     directions  angle of the shear of all points (n, J) [radian]
-    slips       true for slipping points (n, J)
-    at, j       first and second indices of the last sticking points (k,)
-    step        +1 or -1, the index step from these points to the border
+    step        +1 or -1, the index step from the last sticking points to the border
     """
     one, two = at + step, at + 2 * step
     within = (two >= 0) & (two < len(slips))

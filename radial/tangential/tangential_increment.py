@@ -116,11 +116,6 @@ class TangentialState:
 def _prescribed_or_computed(
     prescribed: tuple[float | None, ...], found: Array
 ) -> tuple[float, ...]:
-    """Return loads (or rigid motions) of the indenter, computed where none is prescribed.
-
-    prescribed  prescribed values; None where the conjugate quantity is prescribed (4,)
-    found       computed values (4,)
-    """
     return tuple(
         float(came) if value is None else value
         for value, came in zip(prescribed, found, strict=True)

@@ -168,14 +168,7 @@ class TangentialSteps(StepsOnRings):
     def _normal_load(
         ramp: LoadRamp, start: TangentialState | None, fraction: float
     ) -> tuple[float | None, float | None]:
-        """Return the prescribed normal force and approach at a fraction of a load step.
-
-        Either the force or the approach is prescribed. The other one is None.
-
-        ramp      load step
-        start     state at the start of the load step; None without contact
-        fraction  fraction of the linear change of the load, 0 to 1
-        """
+        """Return the prescribed normal force and approach, one of which is None."""
         reached = (start.forces[NORMAL], start.motions[NORMAL]) if start else (0.0, 0.0)
         return ramp.normal.prescribed(fraction, reached)
 
@@ -212,24 +205,13 @@ class TangentialSteps(StepsOnRings):
         return self._solve_loads(loads, before)
 
     def _scene_components(self, parts: tuple[float, ...]) -> Pair:
-        """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.
-
-        The result is the pair of x and y components.
-
-        parts  components along and across the direction of the load; further entries (torsion,
-               normal) are ignored
-        """
+        """Rotate components along and across the load,
+        the first two of `parts`, to the axes x and y."""
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
     def _load_components(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Rotate a vector from the x and y axes of the scene to the axes of the tangential load.
-
-        The result has the components along and across the direction of the load. Used for
-        prescribed tangential forces and shifts. Without a vector both components are None.
-
-        vector  x and y components; None if no vector is prescribed
-        """
+        """Rotate x and y components to those along and across the load; None without a vector."""
         if vector is None:
             return None, None
         (x, y), (of_x, of_y) = self.direction, vector
@@ -276,14 +258,8 @@ class TangentialSteps(StepsOnRings):
         guess: Array | None,
         free: Array | None = None,
     ) -> PointState:
-        """Solve contact and friction at points under prescribed loads.
-
-        points  points of the contact (rings × angles)
-        loads   prescribed loads and rigid motions of the indenter
-        last    state at the start of the increment; None before first contact
-        guess   initial guess of tractions and rigid motion (3 N + 4,); None for the last state
-        free    free motion of points until their contact, times areas (2 N,); None without
-        """
+        """Solve from `last`, with tractions and rigid motion (3 N + 4,) as the guess,
+        or those of `last`, and the free motion of points until contact, times areas (2 N,)."""
         held, tolerance = _fix_excluded_motions(points, loads), EXACT * self.tolerance
         friction = self._friction_at(points)
         return solve_increment(points, friction, held, last, tolerance, guess, free)
@@ -293,25 +269,12 @@ class TangentialSteps(StepsOnRings):
         return friction_at_radii(self.friction, np.repeat(points.radii, points.count))
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
-        """Solve the frictionless contact under the prescribed normal load of an increment.
-
-        The result gives an initial guess and, for a contact within the first rings, the contact
-        radius.
-
-        loads  prescribed loads and motions, of which only the normal force or approach is used
-        """
         prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
         return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
     def _frictionless_guess(self, points: ContactPoints, loads: Loads) -> Array:
-        """Return tractions and rigid motion of the frictionless contact, as an initial guess.
-
-        Newton's method needs far fewer steps from this guess than from a uniform pressure. The
-        shape is (3 N + 4,) for N points: q_r, q_θ, p, then two shifts, twist and approach.
-
-        points  points of the contact (rings × angles)
-        loads   prescribed loads and motions, of which only the normal force or approach is used
-        """
+        """Return q_r, q_θ, p, two shifts, twist and approach of the frictionless contact
+        (3 N + 4,). Newton's method needs far fewer steps from them than from a uniform pressure."""
         found = self._solve_frictionless(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
         p[~np.isfinite(p)] = p[1]
@@ -321,14 +284,8 @@ class TangentialSteps(StepsOnRings):
         )
 
     def _refuse_within_first(self, points: ContactPoints, approach: float | None) -> None:
-        """Raise UnsupportedScene if a prescribed approach is too small for contact at any ring.
-
-        The approach must exceed the mean undeformed gap over the hat function of at least one ring.
-        Otherwise no point comes into contact.
-
-        points    points of the contact (rings × angles)
-        approach  prescribed approach; None under a prescribed force [length]
-        """
+        """Raise UnsupportedScene unless an approach exceeds
+        the mean gap over the hat of at least one ring."""
         depth = float(np.min(points.gap_areas / points.areas))
         if approach is not None and approach <= depth:
             raise UnsupportedScene(
@@ -432,15 +389,8 @@ class TangentialSteps(StepsOnRings):
         return found
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
-        """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.
-
-        Tractions at the border of this annulus and at the contact edge would be inaccurate. The
-        annulus is too narrow if no point slips although pressure displaces the surfaces relative to
-        each other.
-
-        state  state at the end of the load step
-        step   number of the load step; only step 1 is checked, as long as no tangential load acts
-        """
+        """Raise UnsupportedScene if the slip annulus of coupled bodies is narrower
+        than a ring after step 1; tractions at its border would be inaccurate."""
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is RingAngles.ONE and coupling(self.scene)[0]:
             raise UnsupportedScene(
@@ -480,14 +430,8 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _interpolate_scalar(points: ContactPoints, field: Array) -> Array:
-        """Interpolate a scalar field from the points to the output angles of each ring (n, angles).
-
-        At the axis all angles receive the mean value. With one angle per ring the field is returned
-        as it is (n,).
-
-        points  points of the contact: n rings with `count` angles each
-        field   values at the points (n count,)
-        """
+        """Interpolate a field (n count,) to the output angles (n, angles);
+        unchanged (n,) with one angle."""
         if points.count == 1:
             return field
         shown = points.interpolate_angles(field, 1.0)
@@ -524,14 +468,8 @@ class TangentialSteps(StepsOnRings):
 
 
 def _fix_excluded_motions(points: ContactPoints, loads: Loads) -> Loads:
-    """Replace loads on rigid motions that symmetry excludes by prescribed zero motions.
-
-    Points at one angle per ring exclude shifts. Points on half a circle exclude the shift across
-    θ = 0 and the twist.
-
-    points  points of the contact (rings × angles)
-    loads   prescribed loads and rigid motions of the indenter
-    """
+    """Prescribe zero for motions that symmetry excludes:
+    shifts with one angle per ring, and the twist and the shift across θ = 0 on half a circle."""
     has = [*np.any(points.rigid_motions, axis=1), True]
     forces, motions = (
         tuple(value if moves else rest for moves, value in zip(has, prescribed, strict=True))

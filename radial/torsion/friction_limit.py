@@ -55,9 +55,6 @@ class FrictionLimit:
     def of(cls, contact: Disc, friction: float, modulus: float) -> FrictionLimit:
         """Compute the transform N/t of the shear q = µp at the friction limit of a contact.
 
-        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the contact
-        radius a.
-
         contact   frictionless contact, which gives the pressure p
         friction  coefficient of friction µ
         modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
@@ -73,48 +70,25 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def evaluate_transform(self, t: Array) -> Array:
-        """Evaluate the transform N/t of the circumferential shear at the friction limit µp [1].
-
-        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
-        modulus G and the contact radius a.
-
-        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
-        """
+        """Evaluate N/t at coordinates t,
+        from 0 at the axis to 1 at the contact edge (any shape) [1]."""
         return _evaluate_panels(self.slopes, *_panel_positions(t))
 
     def transform_rate(self, t: Array) -> Array:
-        """Evaluate the rate d(N/t)/dt of the transform N of shear at the friction limit µp [1].
-
-        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
-        modulus G and the contact radius a. The rate is an integrand of the shear in the stick disc.
-
-        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
-        """
+        """Evaluate d(N/t)/dt at coordinates t (any shape) [1],
+        an integrand of the shear in the stick disc."""
         panel, place = _panel_positions(t)
         return np.asarray(_evaluate_panels(self.rates, panel, place) * 2.0**panel)
 
 
 def _panel_positions(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Find the interval of a piecewise Chebyshev series that contains each of the given points.
-
-    The series represents the shear at the friction limit. Its interval n is 2^-(n+1) < t < 2^-n.
-    The function returns the indices n and the positions within the intervals, from -1 to 1.
-
-    t  points, 0 < t <= 1 (any shape)
-    """
+    """Find the panel n of each t, 2^-(n+1) < t < 2^-n, and the position in it, from -1 to 1."""
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 
 
 def _evaluate_panels(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
-    """Evaluate a piecewise Chebyshev series at points by Clenshaw's recurrence.
-
-    Used for the transform of the shear at the friction limit, which has one series per interval.
-
-    coefficients  Chebyshev coefficients of all intervals (intervals, nodes)
-    panel         index of the interval that contains each point (any shape)
-    place         position of each point in its interval, from -1 to 1 (same shape)
-    """
+    """Evaluate Chebyshev series (intervals, nodes) at places of panels by Clenshaw's recurrence."""
     last, now = np.zeros_like(place), np.zeros_like(place)
     for column in coefficients.T[:0:-1]:
         last, now = now, column[panel] + 2 * place * now - last
@@ -122,19 +96,12 @@ def _evaluate_panels(coefficients: Array, panel: NDArray[np.int64], place: Array
 
 
 def _unit_limit(contact: Disc, t: Array) -> Array:
-    """Compute the transform h/t of circumferential shear that equals the pressure [force/length].
+    """Compute h/t of the shear that equals the pressure, for t from 0 to 1 [force/length].
 
-    The shear µp at the friction limit is µ times this shear. h(s), s = a t, is the function whose
-    Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. The pressure is the Abel transform
-    of a function G, p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. Then
+        h/t = (2E*/π²) [G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ]
 
-        h/t = (2E*/π²) [G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ],    K'(t) = K(√(1-t²)).
-
-    K is the complete elliptic integral of the first kind. The integral is evaluated with τ = t
+    The shear µp at the friction limit has µ times this value. The integral is evaluated with τ = t
     exp(y).
-
-    contact  frictionless contact of radius a
-    t        coordinates, from 0 at the axis to 1 at the contact edge (any shape)
     """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]

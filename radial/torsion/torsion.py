@@ -1,9 +1,9 @@
 """Monotonic torsion of a contact: the stick disc r < c rotates with the indenter, the rest slips.
 
 The shear q_θ is represented by the function h of `friction_limit`, or N(t) = h/(G a) with the
-torsional modulus G. In the slip annulus t > c/a the shear is the friction limit µp, so N is the
-transform of µp. In the stick disc, with the twist φ (Lubkin 1951; with layers analogous to the
-pressure, see `disc`),
+torsional modulus G: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with t from 0 at the axis to 1 at the edge.
+In the slip annulus t > c/a the shear is the friction limit µp, so N is the transform of µp. In the
+stick disc, with the twist φ (Lubkin 1951; with layers analogous to the pressure, see `disc`),
 
     N = (4/π) φ t - D(t),    D = (2/π) ∫₀^∞ (Y - 1) sin κt N~ dκ,    N~ = ∫₀¹ N sin κt dt,
 
@@ -94,11 +94,7 @@ class Torsion:
 
     @cached_property
     def friction_limit(self) -> FrictionLimit:
-        """Transform N(t)/t of the circumferential shear q = µp at the friction limit.
-
-        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
-        modulus G and the contact radius a. t runs from 0 at the axis to 1 at the contact edge.
-        """
+        """Transform N(t)/t of the circumferential shear q = µp at the friction limit."""
         return FrictionLimit.of(self.contact, self.friction, self.modulus)
 
     @cached_property
@@ -201,9 +197,8 @@ class Torsion:
 class Panel(NamedTuple):
     """Gauss points of an interval of the radius, with the transform N of the circumferential shear.
 
-    The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
-    modulus G and the contact radius a. Torque and energy of torsion are integrals of N over all
-    intervals of stick disc and slip annulus.
+    Torque and energy of torsion are integrals of N over all intervals of stick disc and slip
+    annulus.
 
     t        coordinates of the points, from 0 at the axis to 1 at the contact edge (n,)
     weights  quadrature weights (n,)
@@ -217,9 +212,7 @@ class Panel(NamedTuple):
     def sine_transform(self, places: Array) -> Array:
         """Compute the sine transform ∫ N sin κt dt over the interval, at given wavenumbers (κ,).
 
-        N(t) is the function whose Abel transform is the circumferential shear of torsion. Layers
-        contribute to the twist by this transform. The coordinate t is 0 at the axis and 1 at the
-        contact edge.
+        Layers contribute to the twist by this transform.
 
         places  wavenumbers κ, multiplied by the contact radius (κ,)
         """
@@ -230,9 +223,7 @@ class Panel(NamedTuple):
 class PartialSlip:
     """State of monotonic torsion of a contact, with a stick disc and a slip annulus.
 
-    The shear is the Abel transform of a function N(t): q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the
-    contact radius a and the torsional modulus G. In the stick disc N = (4/π) φ t - D, with the
-    twist φ and the contribution D of the layers.
+    In the stick disc N = (4/π) φ t - D, with the twist φ and the contribution D of the layers.
 
     of      contact under torsion
     stick   stick radius over the contact radius, c/a
@@ -254,8 +245,6 @@ class PartialSlip:
 
             N(t) = (4/π) φ t - D(t)
 
-        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
-              the torsional modulus G and the contact radius a
         φ, D  twist of the indenter, and contribution of the layers
         t     coordinates, from 0 at the axis to the stick radius over the contact radius (any
               shape)
@@ -265,12 +254,8 @@ class PartialSlip:
 
     @property
     def _disc_panels(self) -> list[Panel]:
-        """Interval that covers the stick disc, with the transform N of the shear.
-
-        N(t) is the function whose Abel transform is the circumferential shear. The result is a list
-        with one interval, or an empty list without stick disc, because torque and energy are sums
-        over the intervals of stick disc and slip annulus.
-        """
+        """Intervals of the stick disc with the transform N of the shear:
+        one, or none without stick."""
         if self.stick == 0:
             return []
         v, weights = unit_gauss(self.of.gauss_count(self.stick) + 2 * len(self.layers))
@@ -279,11 +264,7 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Torque of the circumferential shear, 4π G a³ ∫₀¹ N t dt [force length].
-
-        N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
-        contact radius. t runs from 0 at the axis to 1 at the contact edge.
-        """
+        """Torque of the circumferential shear, 4π G a³ ∫₀¹ N t dt [force length]."""
         total = sum(float(w * t @ N) for t, w, N in (*self._disc_panels, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
@@ -291,9 +272,8 @@ class PartialSlip:
     def transform(self) -> Array:
         """Sine transform ∫₀¹ N sin κt dt of the transform N of the shear (κ,).
 
-        N(t) is the function whose Abel transform is the circumferential shear. The displacement by
-        the layers is an integral of this transform over the wavenumber κ, multiplied by the contact
-        radius.
+        The displacement by the layers is an integral of this transform over the wavenumber κ,
+        multiplied by the contact radius.
         """
         places, _ = self.of.waves
         parts = [panel.sine_transform(places) for panel in (*self._disc_panels, *self.panels)]
@@ -305,10 +285,7 @@ class PartialSlip:
 
             ½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]
 
-        N, N~  function whose Abel transform is the shear, and its sine transform
         Y - 1  contribution of the layers to the torsional compliance, relative to half-spaces
-        G, a   torsional modulus and contact radius
-        κ      wavenumber times contact radius
         """
         squares = sum(float(w @ N**2) for _, w, N in (*self._disc_panels, *self.panels))
         _, wave_weights = self.of.waves
@@ -382,13 +359,7 @@ class PartialSlip:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """Evaluate d(-D/t)/dt in the stick disc, the integrand of the shear by layers [1].
-
-        D(t) is the contribution of the layers to the function N(t) = (4/π) φ t - D(t) whose Abel
-        transform is the circumferential shear. φ is the twist of the indenter.
-
-        t  coordinates, from 0 at the axis to the stick radius over the contact radius (any shape)
-        """
+        """Evaluate d(-D/t)/dt in the stick disc, the integrand of the shear by layers [1]."""
         x, every = t / self.stick, all_order_coefficients(self.layers, 1)
         changed, rate = legendre.legval(x, every), legendre.legval(x, legendre.legder(every))
         return np.asarray((changed / x - rate) / (x * self.stick**2))

@@ -225,10 +225,7 @@ class TorsionSteps(StepsOnRings):
 
 
 def _contact_status(stick: float) -> ContactStatus:
-    """Return the contact status of torsion: full stick, partial slip or gross slip.
-
-    stick  stick radius over the contact radius: 1 for full stick, 0 for gross slip
-    """
+    """Return the contact status for a stick radius over the contact radius."""
     if stick >= 1:
         return ContactStatus.FULL_STICK
     return ContactStatus.PARTIAL_SLIP if stick else ContactStatus.GROSS_SLIDING

@@ -161,25 +161,13 @@ class TwistPath:
 
 
 def _sum_branches(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
-    """Return the twist [radian] or torque [force length] after a sequence of branches of torsion.
-
-    A branch is a change in one direction of twist, since a load reversal. The result is the sum of
-    the changes of all branches.
-
-    branches  branches of the history, the current one last
-    of        "twist" or "torque", the quantity to be summed
-    """
+    """Sum the changes of "twist" [radian] or "torque" [force length] (`of`) of all branches."""
     return sum((branch.sense * branch.weight * branch.quantity(of) for branch in branches), 0.0)
 
 
 def _branch_work(others: list[Branch], branch: Branch) -> float:
-    """Compute the work ∫ M dφ of the torque M along one branch of torsion [force length].
-
-    A branch is a change of the twist φ in one direction, since a load reversal.
-
-    others  preceding branches; the sum of their torques is constant during the branch
-    branch  the branch along which the torque does the work
-    """
+    """Compute the work ∫ M dφ along a branch [force length]; the torque of the others is
+    constant."""
     linear = (
         branch.sense * branch.weight * branch.quantity("twist") * _sum_branches(others, "torque")
     )

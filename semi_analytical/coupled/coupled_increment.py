@@ -132,13 +132,7 @@ def solve_coupled_increment(
 
 
 def _box_with_margin(cells: Mask, domain: ReducedDomain) -> Box:
-    """Return the smallest box around given cells, with a margin into which the contact may grow.
-
-    The coupled increment is solved in this box.
-
-    cells   cells that the box must contain (nx, ny), such as those under pressure
-    domain  domain of the cells: full window or reduced by symmetry
-    """
+    """Return the smallest box around cells, with a margin into which the contact may grow."""
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))
     return box_around(cells, max(MARGIN, round(RELATIVE_MARGIN * widest)), domain)
@@ -151,15 +145,8 @@ def _initial_guess(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> tuple[Field, VectorField, int]:
-    """Return the initial guess of pressure and shear of an increment, and the iterations spent.
-
-    At constant normal load the guess is extrapolated from previous increments. Otherwise it is an
-    approximate frictionless pressure and the shear of the previous increment.
-
-    model               contact model
-    before, last        state at the start of the increment, and its tangential part
-    normal, tangential  prescribed loads at the end of the increment
-    """
+    """Return guesses of pressure and shear, and iterations spent: extrapolated at constant
+    normal load, otherwise a rough frictionless pressure and the shear of the previous increment."""
     if before is not None and (seen := before.seen()) and seen.target == normal:
         further = further_fields(seen, before.behind, tangential)
         return further.pressure, further.shear, 0
@@ -309,14 +296,8 @@ class _Trial:
         return replace(after, displacement=u_t)
 
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
-        """Return the tangential state in gross slip: at the friction limit, or without friction.
-
-        Raise GrossSliding if a prescribed force or torque exceeds the friction limit.
-
-        p      pressure (nx, ny) [force/length^2]
-        bound  friction limit µp (nx, ny)
-        u_t    tangential displacement (2, nx, ny) [length]
-        """
+        """Return the state at the friction limit `bound` of the pressure p, or without
+        friction at u_t. Raise GrossSliding if a prescribed force or torque exceeds the limit."""
         model, last, load = self.model, self.last, self.tangential
         loads_reach_limit(model, bound, load)
         if np.any(bound):

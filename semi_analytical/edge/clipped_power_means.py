@@ -66,12 +66,6 @@ def power(base: Field, exponent: Exponent) -> Field:
 
 
 def _select_exponents(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
-    """Select the exponents of a subset of array elements; a single number is returned unchanged.
-
-    exponent  a number, or an array that broadcasts to `shape`
-    shape     shape of the data to which the exponents belong
-    where     mask of the selected elements, of this shape
-    """
     return np.broadcast_to(exponent, shape)[where] if np.ndim(exponent) else exponent
 
 
@@ -125,13 +119,8 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
 
 
 def _sum_series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
-    """Sum the series 1 + second/f² + fourth/f⁴ + sixth/f⁶ of the cell mean of a power over f^a.
-
-    The series is the mean of (f + b x + c y)^a over a unit cell, divided by f^a.
-
-    inverse                1/f², with f the value of the linear function at the cell centre
-    second, fourth, sixth  coefficients of the series
-    """
+    """Sum 1 + second/f² + fourth/f⁴ + sixth/f⁶, with `inverse` 1/f²:
+    the mean of (f + b x + c y)^a over f^a."""
     total = inverse * sixth
     for term in (fourth, second):
         total += term
@@ -141,15 +130,10 @@ def _sum_series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> F
 
 
 def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over unit cells, and its derivative with respect to
-    f.
+    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative (n,).
 
-    The zero line of the linear function may cut the cells; negative values count as zero. All
-    arrays have the shape (n,).
-
-    f     value of the linear function at the cell centre
+    f     value of the linear function at the cell centre; its zero line may cut the cell
     b, c  larger and smaller slope, not negative
-    a     exponent
     """
     straight = c < STRAIGHT * b
     if not np.any(straight):
@@ -161,15 +145,10 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _straight_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative, for a small
-    slope c.
+    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative (n,).
 
-    The zero line is almost parallel to a cell side. The integral along the larger slope b has a
-    closed form. Gauss points are used along c.
-
-    f     value of the linear function at the cell centre (n,)
-    b, c  larger and smaller slope, not negative (n,)
-    a     exponent
+    The slope c is small, so that the zero line is almost parallel to a cell side. The integral
+    along the larger slope b has a closed form. Gauss points are used along c.
     """
     mean, slope = np.zeros(f.shape), np.zeros(f.shape)
     for y, weight in zip(POINTS, WEIGHTS, strict=True):
@@ -182,16 +161,8 @@ def _straight_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _oblique_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative, by a closed
-    formula.
-
-    The formula is a second difference over the four corners of the cell. It requires a slope c that
-    is not small.
-
-    f     value of the linear function at the cell centre (n,)
-    b, c  larger and smaller slope, positive (n,)
-    a     exponent
-    """
+    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative (n,),
+    as a second difference over the corners. It requires a slope c that is not small."""
     corners = np.maximum(f + (HALVES[0] * b + HALVES[1] * c), 0.0)
     of_corners, divisor = power(corners, a + 1), (a + 1) * (b * c)
     slope = _corner_differences(of_corners) / divisor
@@ -229,15 +200,8 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Compute the centre value f of a positive linear function from the cell mean of its power.
-
-    The equation mean^(1/a) = target is solved for f, where the mean is that of (f + b x + c y)^a
-    over the unit cell. Each fixed-point iteration divides the error by 200.
-
-    target  given value of mean^(1/a)
-    b, c    larger and smaller slope, not negative
-    a       exponent
-    """
+    """Solve mean^(1/a) = target for f: the mean of (f + b x + c y)^a over a cell
+    without a zero line. Each fixed-point iteration divides the error by 200."""
     f, terms = target, _series_terms(b, c, a)
     for _ in range(FIXED_POINT_STEPS):
         f = target / power(_sum_series(1 / f**2, *terms), np.divide(1, a))
@@ -245,17 +209,8 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Return an initial guess of the centre value f of a linear function from the cell mean of its
-    power.
-
-    The zero line of the function f + b x + c y may cut the cell. The guess is exact if only one
-    corner of the cell is positive. If two corners are positive, the smaller slope is neglected.
-    Otherwise both slopes are neglected.
-
-    target  given value of mean^(1/a), with the mean of (f + b x + c y)_+^a over the cell
-    b, c    larger and smaller slope, not negative
-    a       exponent
-    """
+    """Return a guess of f from mean^(1/a) of (f + b x + c y)_+^a:
+    exact if one corner is positive, without the smaller slope if two are, else without slopes."""
     mean = (a + 1) * b * power(target, a)
     corner, side = power((a + 2) * c * mean, 1 / (a + 2)), power(mean, 1 / (a + 1))
     f = np.where(side <= b, side - b / 2, target)

@@ -80,12 +80,8 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 
 
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
-    """Return the slices of the smallest rectangle that contains given cells and their neighbours.
-
-    Fits on this rectangle of the window cost less than fits on the whole window.
-
-    marked  cells that the rectangle must contain (nx, ny)
-    """
+    """Return the slices of the smallest rectangle of the given cells and their neighbours:
+    fits there cost less than on the whole window."""
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 

@@ -133,12 +133,8 @@ class EdgeLine:
         return line
 
     def _reflect_points(self, axis: int) -> EdgeLine:
-        """Return the mirror images of the edge points about a symmetry plane of the reduced domain.
-
-        The plane lies half a cell before the first cell.
-
-        axis  axis normal to the plane: 0 for x, 1 for y
-        """
+        """Reflect the points about the symmetry plane normal to `axis`,
+        half a cell before the first cell."""
         at, normal, places = self.at.copy(), self.normal.copy(), [self.x, self.y]
         at[axis], normal[axis], places[axis] = -1 - at[axis], -normal[axis], -1 - places[axis]
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)

@@ -151,13 +151,8 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _interpolate_ratios(self, s: Field) -> Field:
-        """Interpolate the effect of the layers on three basic edge pressures Φ1, Φ2 and Φ3.
-
-        The results (3, …) are the ratios of Φn with layers to Φn without layers. Beyond the table
-        of distances the value at its end is used.
-
-        s  distances from the contact edge over the layer thickness (…)
-        """
+        """Interpolate Φ1, Φ2 and Φ3 with layers over those without (3, …) at distances s
+        (…) from the edge, over the layer thickness; beyond the table, its end is used."""
         u = np.log(np.maximum(s, 1e-300))
         found = self._pressure_ratios(
             np.clip(u, self._pressure_ratios.x[0], self._pressure_ratios.x[-1])
@@ -165,14 +160,8 @@ class FilmLaw:
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _law_values(self, s: Field, c: Field) -> Field:
-        """Compute the edge pressure law of layered bodies, √s, and their derivatives at n points.
-
-        The rows of the result (4, n) are the law, its derivative with respect to s, √s, and the
-        derivative of √s. The law is √s times a ratio that depends on the layers and on c.
-
-        s  distances s > 0 of the points from the contact edge over the layer thickness (n,)
-        c  coefficient of the second term of the law (n,)
-        """
+        """Compute the law with the coefficient c of its second term, its s-derivative,
+        √s and its derivative (4, n), at distances s > 0 over the layer thickness."""
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
         return np.stack(
@@ -180,15 +169,8 @@ class FilmLaw:
         )
 
     def _law_integrals(self, s: Field, c: Field) -> Field:
-        """Integrate the edge pressure law of layered bodies, √s, and their derivatives from 0 to s.
-
-        The rows of the result (4, n) are the integrals of the law, of its derivative, of √s, and of
-        the derivative of √s. Means over cells that the edge cuts are differences of these
-        integrals.
-
-        s  distances s >= 0 from the contact edge over the layer thickness (n,)
-        c  coefficient of the second term of the law (n,)
-        """
+        """Integrate the rows of `_law_values` from 0 to s >= 0 (4, n).
+        Means over cells that the edge cuts are differences of these integrals."""
         root = np.sqrt(s)
         first, second, third = self._interpolate_ratios(s)
         bent = c * s / 1.5
@@ -204,11 +186,8 @@ class FilmLaw:
 
 
 def _euler_weights() -> Field:
-    """Return the weights of the terms of the numerical Laplace inversion (2 TERMS + 1,).
-
-    Euler summation accelerates the alternating series of the inversion. The inversion yields the
-    edge pressures of layered bodies.
-    """
+    """Return the weights of Euler summation of the alternating
+    series of the Laplace inversion (2 TERMS + 1,)."""
     tail = np.cumsum([comb(TERMS, k) for k in range(TERMS)]) / 2**TERMS
     return np.concatenate([[0.5], np.ones(TERMS), tail[::-1]])
 
@@ -263,12 +242,7 @@ def _uniform_depth(stack: Stack) -> float:
 
 
 def _material_compliance(stack: Stack) -> float:
-    """Return the normal compliance (1 - ν)/G of the outermost material of a body [length²/force].
-
-    The compliance is the wavenumber times the normal surface displacement per unit pressure of a
-    half-space of this material.
-
-    stack  layers and base of the body
-    """
+    """Return (1 - ν)/G [length²/force] of the outermost material:
+    wavenumber times displacement per pressure of its half-space."""
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus

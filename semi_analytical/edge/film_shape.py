@@ -220,16 +220,7 @@ class _Problem:
 
 
 def _law_coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
-    """Compute the coefficient c of the edge pressure law of layered bodies, from the local edge
-    geometry.
-
-    The coefficient is c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from an edge of
-    curvature κ.
-
-    local  geometry of the edge near n cells
-    depth  distance of each cell from the nearest cell outside the contact area, in cells (nx, ny);
-           its maximum limits c
-    law    law of the pressure near the edge
-    """
+    """Compute c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from an edge of curvature κ,
+    limited by the largest distance `depth` of a cell from the outside."""
     limit = MAX_COEFFICIENT / (np.max(depth) * min(law.stretched))
     return np.clip(0.75 * (local.bend / (2 * local.slope) - local.curvature), -limit, limit)

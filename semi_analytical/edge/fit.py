@@ -160,14 +160,8 @@ def monomials(stencil: Stencil) -> Field:
 
 @cache
 def _monomial_products(stencil: Stencil, degree: int) -> Field:
-    """Compute the products of all pairs of monomials in each cell of a fit window.
-
-    The shape is (9 degree², (2 reach + 1)²). Weighted sums over the cells yield the matrices of the
-    least-squares fits.
-
-    stencil  square window of cells
-    degree   degree of the polynomials, 1 or 2
-    """
+    """Compute the products of all pairs of monomials in each cell of a fit
+    window (9 degree², (2 reach + 1)²), for the matrices of least-squares fits."""
     basis = monomials(stencil)[: 3 * degree]
     return _read_only((basis[:, None] * basis).reshape(len(basis) ** 2, -1))
 

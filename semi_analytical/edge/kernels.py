@@ -110,11 +110,10 @@ class EdgeKernels:
 
 @cache
 def _subcell_sums(moment: int, parity: int) -> Field:
-    """Return the matrix that sums influence coefficients of weighted subcells over one side of a
-    cell.
+    """Return the matrix that sums coefficients of weighted subcells over a side of a cell.
 
-    The matrix (NEAR + 1, PART_OFFSETS) maps coefficients at subcell offsets >= 0 to sums at cell
-    offsets >= 0. Coefficients at negative offsets follow from the parity.
+    It maps influence coefficients at subcell offsets >= 0 to sums at cell offsets >= 0, with the
+    shape (NEAR + 1, PART_OFFSETS). Coefficients at negative offsets follow from the parity.
 
     moment  exponent of the weights: 1 for the positions of the subcells along the side, 0 for ones
     parity  parity of the coefficients along this side: 1 even, -1 odd
@@ -128,15 +127,8 @@ def _subcell_sums(moment: int, parity: int) -> Field:
 
 
 def _coefficient_slope(values: Field, axis: int, parity: int) -> Field:
-    """Compute the derivative of influence coefficients with respect to the offset along one axis.
-
-    The displacement by a linear traction on a distant cell is this derivative over -12. Differences
-    of fourth order are used, of lower order at the largest offsets.
-
-    values  influence coefficients at offsets >= 0 (nx, ny)
-    axis    0 for x, 1 for y
-    parity  parity of the coefficients along the axis: 1 even, -1 odd
-    """
+    """Compute the derivative along an axis of coefficients at offsets >= 0, by fourth-order
+    differences. Over -12 it is the displacement by a linear traction on a distant cell."""
     v = values.T if axis else values
     v = np.concatenate([parity * v[2:0:-1], v])
     inner = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / 12

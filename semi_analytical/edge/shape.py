@@ -71,8 +71,6 @@ class EdgeShape:
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fit quadratics to the cell means of φ = p^(1/α) about cells of the region.
 
-        φ is a smooth function of the traction p and vanishes at the edge of the region.
-
         i, j  indices of the central cells of the fits (n,)
         """
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
@@ -97,9 +95,8 @@ class EdgeShape:
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
         """Compute the expansion of φ = p^(1/α) about points near the edge, by local fits.
 
-        φ is a smooth function of the traction p and vanishes at the edge. A point outside the
-        region uses the fit about the nearest cell of the region, because a fit centred outside has
-        data on one side only and a hundredfold error.
+        A point outside the region uses the fit about the nearest cell of the region, because a fit
+        centred outside has data on one side only and a hundredfold error.
 
         x, y     points as cell indices (n,)
         returns  quadratics of φ expanded about the points, and a mask that is True for reliable
@@ -111,9 +108,8 @@ class EdgeShape:
     def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
         """Compute the expansion of φ = p^(1/α) about n cells in the region or next to its edge.
 
-        φ is a smooth function of the traction p and vanishes at the edge of the region. The second
-        result (n,) is the rms residual of the fits over the change of φ across a cell. This ratio
-        is infinite for fits with few data.
+        The second result (n,) is the rms residual of the fits over the change of φ across a cell.
+        This ratio is infinite for fits with few data.
 
         adjacent  the n cells, and the assignment of fits to them
         fits      quadratics fitted about the cells `adjacent.fitted`
@@ -130,10 +126,9 @@ class EdgeShape:
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
         """Find the edge points nearest to n given points, and fit φ = p^(1/α) about them.
 
-        φ is a smooth function of the traction p and vanishes at the edge. Newton steps along the
-        gradient of φ find the edge points, with new fits in the first REFITS steps. The second
-        result is a mask, True for reliable fits at edge points less than FARTHEST cells away. Used
-        to compute stresses at the contact edge.
+        Newton steps along the gradient of φ find the edge points, with new fits in the first REFITS
+        steps. The second result is a mask, True for reliable fits at edge points less than FARTHEST
+        cells away. Used to compute stresses at the contact edge.
 
         x, y  given points as cell indices (n,)
         """
@@ -184,13 +179,8 @@ class AdjacentCells:
 
 
 def _step_to_edge(here: Quadratic) -> tuple[Field, Field]:
-    """Move points towards the edge of a region, where φ = 0, by one Newton step of at most one
-    cell.
-
-    The step is along the gradient of φ. The results are the new coordinates x and y.
-
-    here  quadratics of φ expanded about the present points
-    """
+    """Move points towards φ = 0 along its gradient by one Newton step of at most a cell:
+    new x and y."""
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
     step = step * np.minimum(1.0, LONGEST_STEP / np.maximum(np.abs(step) * here.slope, 1e-30))

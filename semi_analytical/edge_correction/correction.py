@@ -80,12 +80,7 @@ class EdgeCorrection:
         return corrected
 
     def _extend_state(self, state: State) -> State:
-        """Extend the fields of a solved state from the reduced domain to the full window.
-
-        The reduced domain is the half or quarter of the window between mirror planes.
-
-        state  solved contact state on the reduced domain
-        """
+        """Extend the fields of a state from the reduced domain to the full window."""
         extend, sheared = self._domain.extend_fields, state.sheared
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)
@@ -220,27 +215,16 @@ def _bodies(
 
 
 def _within_cells(means: Field, parts: Field, edge: SubcellTractions) -> Within:
-    """Compute the variation of a traction within cells on the full window.
-
-    means  cell means of the traction (nx, ny) [force/length^2]
-    parts  subcell values in the cells along the edge (n, PARTS, PARTS) [force/length^2]
-    edge   edge of the contact
-    """
+    """Compute the variation of a traction within cells on the full window,
+    from its cell means (nx, ny) and subcell values along the edge (n, PARTS, PARTS)."""
     domain = edge.domain
     within = Within.from_subcells(domain.restrict(means), edge.i, edge.j, parts, domain)
     return within.extend_to_window(domain)
 
 
 def _determines_border(before: State | None, state: State, sheared: TangentialState) -> bool:
-    """Return True if an earlier state determines the border of the stick zone of a later state.
-
-    The edge correction of the shear starts from the earlier state. It needs a corrected shear and a
-    known tangential shift. It must have the same normal load or no shear.
-
-    before   earlier state with its edge correction; None if unknown
-    state    later state
-    sheared  tangential part of the later state
-    """
+    """Return True if an earlier state determines the border of the stick zone:
+    it needs a corrected shear, a known shift, and the same normal load or no shear."""
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:
         return False

@@ -108,17 +108,8 @@ def _fit_power_law(
     stencil: Stencil,
     factor: float,
 ) -> _LawFit:
-    """Fit one power law to the shear deficit in the cells along the border of the stick zone.
-
-    The deficit is the friction limit minus the shear along the direction of slip.
-
-    deficit                    deficit over its largest value (nx, ny)
-    stick                      sticking cells (nx, ny)
-    depth                      distance of the cells from the nearest cell outside the stick zone
-                               (nx, ny), in cells
-    cells                      border cells and the fits that determine the deficit there
-    exponent, stencil, factor  exponent of the law, window of the fits, and factor of the residual
-    """
+    """Fit one power law to the shear deficit over its largest value (nx, ny),
+    at the border of the stick zone. Deficit: friction limit minus shear along slip."""
     shape = edge_shape(deficit, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
     phi, error = shape.about_cells(cells, shape.fits(*cells.fitted))
     return _LawFit(phi.cell_mean(0.0), np.where(error < LARGEST_RMS, factor * error, np.inf))

@@ -128,11 +128,8 @@ class Descent:
 
     @cached_property
     def _surface_remainder(self) -> tuple[Array, ...]:
-        """Surface compliances of the body minus those of a half-space of its outermost material.
-
-        The differences are multiplied by 2 G alpha, with the shear modulus G of this material and
-        the wavenumber alpha.
-        """
+        """Surface compliances of the body minus those of a half-space of its outermost material,
+        times 2 G alpha with its shear modulus G."""
         unit = 2 * self.stack.outer.shear_modulus * self.alpha
         return tuple(unit * c for c in remainder_scalars(self.stack, self.alpha))
 
@@ -249,9 +246,6 @@ def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
 
 
 def _multiply_matrices(left: Array, right: Array) -> Array:
-    """Multiply two matrices at each wavenumber.
-
-    left, right  matrices along the first two axes, wavenumbers along the third
-    """
+    """Multiply matrices (i, j, wavenumbers) at each wavenumber."""
     result: Array = np.einsum("ijk,jlk->ilk", left, right)
     return result

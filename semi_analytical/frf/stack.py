@@ -121,11 +121,7 @@ def _bond_compliances(layer: Layer) -> tuple[float, float]:
 
 
 def _check_material(shear_modulus: float, poisson_ratio: float) -> None:
-    """Raise ValueError unless the elastic constants of a material have a positive strain energy.
-
-    shear_modulus  must be positive and finite [force/length^2]
-    poisson_ratio  must be above -1 and at most 1/2
-    """
+    """Raise ValueError unless the elastic constants have a positive strain energy."""
     if not (isfinite(shear_modulus) and shear_modulus > 0):
         raise ValueError(f"shear modulus is {shear_modulus}, expected a finite value > 0")
     if not -1 < poisson_ratio <= 0.5:

@@ -144,14 +144,8 @@ def _remainder_of_thick_layer(stack: Stack, alpha: Array) -> SurfaceScalars:
 
 
 def _compliance_below_layer(stack: Stack, alpha: Array) -> Compliance:
-    """Compute the compliance of the material below the outermost layer, in units of 1/(2 G alpha).
-
-    G is the shear modulus of the outermost layer. Without layers the compliance is that of the
-    base.
-
-    stack  layers and base of the body
-    alpha  wavenumbers (n,) [1/length]
-    """
+    """Compute the compliance of the material below the outermost layer,
+    or of the base without layers, times 2 G alpha with the shear modulus G of this layer."""
     return compliances_below(stack, alpha)[0]
 
 
@@ -206,12 +200,8 @@ def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
 
 
 def _check_wavenumbers(alpha: ArrayLike) -> Array:
-    """Convert wavenumbers to an array of positive, finite numbers.
-
-    Raises ValueError otherwise: the surface compliance is unbounded at the wavenumber zero.
-
-    alpha  wavenumbers [1/length]
-    """
+    """Raise ValueError unless wavenumbers are positive and finite:
+    the compliance at 0 is unbounded."""
     alpha = np.asarray(alpha, dtype=np.float64)
     if not (np.all(alpha > 0) and np.all(np.isfinite(alpha))):
         raise ValueError("wavenumbers must be positive and finite: alpha = 0 has no response")

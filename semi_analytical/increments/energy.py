@@ -145,11 +145,8 @@ class Energy:
         return float(abs(work - elastic - dissipated - unresolved) / self.largest)
 
     def _balance_terms(self) -> Vector | None:
-        """Return the terms of the energy balance as an array (4,); None where undefined.
-
-        The terms are input work, elastic energy, dissipated energy and unresolved work [force
-        length].
-        """
+        """Return input work, elastic energy, dissipation and unresolved work (4,);
+        None where undefined."""
         if self.input_work is None or self.dissipated is None or self.unresolved is None:
             return None
         return np.array([self.input_work, self.elastic, self.dissipated, self.unresolved])
@@ -271,13 +268,8 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
 
 
 def _load_work(before: Configuration, after: Configuration) -> float | None:
-    """Compute the work of all forces and moments on the indenter in one increment [force length].
-
-    The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀), with the forces and moments f and their conjugate rigid
-    motions ω at start (0) and end (1). The result is None where a motion is undefined.
-
-    before, after  configurations (tractions, displacements, loads) at the start and the end
-    """
+    """Compute Σ ½ (f₀ + f₁)(ω₁ - ω₀) [force length] of the forces and
+    moments f with their motions ω; None where a motion is undefined."""
     if before.motions is None or after.motions is None:
         return None
     return float(np.sum(0.5 * (before.forces + after.forces) * (after.motions - before.motions)))

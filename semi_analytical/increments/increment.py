@@ -130,11 +130,8 @@ def residuals_of(model: ContactModel, state: State) -> Residuals:
 
 
 def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
-    """Compute the relative error of a prescribed moment M in a state: |Σp (y, x) Δ - M| / Σp r Δ.
-
-    r is the distance of a cell from the origin and Δ its area. None is returned where no moment is
-    prescribed.
-    """
+    """Compute |Σp (y, x) Δ - M| / Σp r Δ for a prescribed moment M,
+    with the distance r of a cell from the origin and its area Δ; None without M."""
     moment, p = state.target.moment, state.pressing.pressure
     if moment is None:
         return None

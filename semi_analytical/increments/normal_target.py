@@ -39,10 +39,7 @@ class NormalTarget:
         return tilted - np.min(tilted)
 
     def _first_touch(self, model: ContactModel) -> float:
-        """Return the approach at which the indenter, tilted as prescribed, first touches a cell.
-
-        The approach [length] counts from first contact without tilt. It is 0 without a tilt.
-        """
+        """Return the approach at first touch with the tilt, from first contact without [length]."""
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def motions(self, model: ContactModel, box: Box) -> RigidMotions:

@@ -234,14 +234,8 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _mean_at_nearest_cells(values: Field, known: Mask, wanted: Mask) -> Field:
-    """Compute for given cells the mean of a field over the nearest cells where the field is known.
-
-    Equally near cells have equal weight. The result has the shape (number of wanted cells,).
-
-    values  field (nx, ny), such as the growth of p² in an increment
-    known   cells with a value (nx, ny)
-    wanted  cells that need a value (nx, ny)
-    """
+    """Compute the mean of a field over the nearest known
+    cells of each wanted cell (wanted,), with equal weights."""
     at, to, data, means = np.argwhere(known), np.argwhere(wanted), values[known], []
     for some in np.array_split(to, 1 + len(to) * len(at) // PAIRS):
         squared = np.sum((some[:, None] - at) ** 2, axis=-1)

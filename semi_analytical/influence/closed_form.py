@@ -2,7 +2,7 @@
 
 The point solutions of Boussinesq and Cerruti (Johnson 1985, sections 3.2 and 3.6) are integrated
 over the loaded cell. Each integral is the second difference of a primitive F(X, Y) over the four
-corners (Love 1929 for pressure).
+corners (Love 1929 for pressure). r is the length of (x, y).
 """
 
 from dataclasses import dataclass
@@ -61,15 +61,15 @@ class HalfSpaceCoefficients:
 
 
 def _square_over_cube(x: Field, y: Field) -> Field:
-    """Return the primitive of x²/r³ with respect to x and y; r is the length of (x, y)."""
+    """Return the primitive of x²/r³ with respect to x and y."""
     return y * np.arcsinh(x / np.abs(y))
 
 
 def _product_over_cube(x: Field, y: Field) -> Field:
-    """Return the primitive of xy/r³ with respect to x and y; r is the length of (x, y)."""
+    """Return the primitive of xy/r³ with respect to x and y."""
     return -np.hypot(x, y)
 
 
 def _over_square(x: Field, y: Field) -> Field:
-    """Return the primitive of x/r² with respect to x and y; r is the length of (x, y)."""
+    """Return the primitive of x/r² with respect to x and y."""
     return y * np.log(np.hypot(x, y)) + x * np.arctan(y / x)

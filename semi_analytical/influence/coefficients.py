@@ -64,12 +64,8 @@ class Composite:
         return self._known[component]
 
     def _combined(self, component: str) -> Field:
-        """Add the influence coefficients of both bodies and of the springs of a test rig (nx, ny).
-
-        The coupling of the upper body has the opposite sign, because its z axis points upwards.
-
-        component  displacement and traction, e.g. "zx" for the normal displacement by the shear q_x
-        """
+        """Add the coefficients (nx, ny) of both bodies and of the springs.
+        The coupling of the upper body has the opposite sign, because its z axis points upwards."""
         sign = -1.0 if component in ("zx", "zy") else 1.0
         bodies = [body[component] for body in self.lower]
         bodies += [sign * body[component] for body in self.upper]

@@ -78,11 +78,8 @@ class LayeredCoefficients:
 
     @cached_property
     def _remainder_table(self) -> RadialTable:
-        """Table of the surface displacement under a point force that the layers add to a
-        half-space.
-
-        The table extends to the farthest point of the integration over cells.
-        """
+        """Table of the displacement under a point force that the layers add to a half-space,
+        to the farthest point of the integration over cells."""
         sides = ((n + MARGIN) * d for n, d in zip(self.shape, self.spacing, strict=True))
         return remainder_table(self.stack, hypot(*sides))
 

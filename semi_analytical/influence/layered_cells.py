@@ -98,14 +98,8 @@ def _average_cells(
 
 
 def _average_first_axis(field: Field, parity: int) -> Field:
-    """Compute the average of a point-force response over each cell along the first axis, from
-    centre values.
-
-    The result is shorter than the input by MARGIN.
-
-    field   values at cell offsets >= 0
-    parity  parity of the response along the axis: 1 even, -1 odd
-    """
+    """Average a point-force response at offsets >= 0 over each cell along the first axis,
+    from centre values of the parity 1 (even) or -1 (odd); the result is shorter by MARGIN."""
     both_sides = np.concatenate([parity * field[MARGIN:0:-1], field])
     windows = np.lib.stride_tricks.sliding_window_view(both_sides, len(CELL_AVERAGE), axis=0)
     return np.einsum("ijk,k->ij", windows, CELL_AVERAGE)

@@ -79,10 +79,8 @@ class StripCoefficients:
         return found
 
     def _even_part(self, x: Array, t: float) -> Array:
-        """Integrate -ln(√(x² + t²)/L) over x, with L the reference length (n,).
-
-        x, t  distance from the load, and depth of the image, in widths of a strip
-        """
+        """Integrate -ln(√(x² + t²)/L) over x, with L the reference length (n,);
+        x and t in strip widths."""
         size = np.log(np.hypot(x, t)) + log(self.width / self.reference_length)
         return x - x * size - (t * np.arctan(x / t) if t else 0.0)
 
@@ -105,16 +103,10 @@ class StripCoefficients:
 
 
 def _odd_part(x: Array, t: float) -> Array:
-    """Integrate arctan(x/t) over x; t = 0 gives π|x|/2 (n,).
-
-    x, t  distance from the load, and depth of the image, in widths of a strip
-    """
+    """Integrate arctan(x/t) over x (n,); t = 0 gives π|x|/2."""
     return x * np.arctan(x / t) - t * np.log(np.hypot(x, t)) if t else pi / 2 * np.abs(x)
 
 
 def _long_waves(material: HalfSpace | None) -> Array:
-    """Compute m times the surface compliances of a half-space (4,); 0 for a rigid one.
-
-    material  shear modulus and Poisson's ratio; None for a rigid half-space
-    """
+    """Compute the wavenumber times the surface compliances of a half-space (4,)."""
     return np.zeros(4) if material is None else np.array(half_space_scalars(material, 1.0))

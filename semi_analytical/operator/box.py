@@ -96,12 +96,7 @@ def _box_side(marked: Mask, margin: int) -> tuple[int, int]:
 
 
 def _half_box_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Compute the first index and the number of cells of a box along an axis with a mirror plane.
-
-    The plane lies before cell 0, so that the half of the box in the reduced domain begins there.
-
-    marked  True at indices along the axis with cells that the box must contain
-    margin  number of cells around them
-    """
+    """Return first index and number of cells of a box that begins at a mirror plane before cell
+    0."""
     _, length = _box_side(np.concatenate([marked[::-1], marked]), margin)
     return 0, length // 2

@@ -48,15 +48,8 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _sort_factors(lines: Field, one: int, other: int) -> Field:
-    """Sort the factors from traction to displacement amplitudes in the order of the amplitudes.
-
-    Fourier transforms (no mirror plane) have two real amplitudes per wavenumber. Sine transforms
-    have the largest wavenumber in the place of 0, where the factor between a sine and a cosine
-    vanishes.
-
-    lines       factors by wavenumber along the first axis
-    one, other  parity of the two components along the axis; 0 without a mirror plane
-    """
+    """Sort factors like amplitudes: two per wavenumber without a mirror plane (parity 0);
+    sine transforms have the largest in the place of 0, where factors to cosines vanish."""
     if one == 0:
         return np.repeat(lines, 2, axis=0)
     if one == other == -1:
@@ -262,11 +255,7 @@ class DisplacementOperator:
         return ApproximateInverse(self.transforms, spectra)
 
     def _inverse_normal(self) -> Field:
-        """Compute the spectrum of the approximate inverse of the normal displacement operator.
-
-        The spectrum of the influence coefficients without zero padding is inverted at each
-        wavenumber.
-        """
+        """Invert the spectrum of the influence coefficients without zero padding."""
         return positive_inverse(self.spectrum("zz").quarter[::2, ::2])
 
     def _inverse_tangential(self) -> dict[str, Field]:

@@ -255,14 +255,8 @@ class Transforms:
         return phase
 
     def _has_factor_i(self, component: str) -> bool:
-        """Return True for field components whose Fourier amplitudes are multiplied by i.
-
-        The factor makes the responses between components real. Scalars on the full window have the
-        factor, and the even component of vectors on half the window.
-
-        component  "x" or "y" of a tangential field, "z" for a scalar field, or a bin of slip
-                   compliance
-        """
+        """Return True for components whose amplitudes are multiplied by i, so that responses are
+        real: scalars on the full window, and the even component of vectors on half the window."""
         if component in "xy":
             return sorted(self.parity(component)) == [0, 1]
         return component == "z" and self.whole
@@ -290,13 +284,8 @@ class Transforms:
         return [of(one) for one in inputs], [of(one) for one in outputs]
 
     def _axis_transform(self, component: str, axis: int, period: int, turned: bool) -> Side:
-        """Return the transform of one field component along one axis.
-
-        component  name of the component
-        axis       0 for x, 1 for y
-        period     period of the transform in cells of the window
-        turned     True if amplitudes are i times the spectrum
-        """
+        """Return the transform of one component along one axis.
+        `turned` means amplitudes that are i times the spectrum."""
         sign, cells = self.parity(component)[axis], self.shape[axis]
         if sign:
             return mirrored_waves(cells, period, sign)

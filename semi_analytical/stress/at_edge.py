@@ -219,12 +219,5 @@ def _stress_by_subcells(
 
 
 def _sum_over_sources(stress: Field, observer: Indices, count: int) -> Field:
-    """Sum the stresses at each observed point over all sources that act on the point.
-
-    The result has the shape (6, count). Each pair consists of a point and a source.
-
-    stress    stress of each pair (6, pairs)
-    observer  index of the point of each pair
-    count     number of points
-    """
+    """Sum the stress of pairs of a point and a source (6, pairs) at each point (6, count)."""
     return np.stack([np.bincount(observer, component, count) for component in stress])

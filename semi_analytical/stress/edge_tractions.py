@@ -141,14 +141,7 @@ def fit_edge_tractions(
 
 
 def _slip_at(shape: EdgeShape, ratio: Field, weight: Field, x: Field, y: Field) -> Field:
-    """Compute the ratio of shear to pressure (2, n) at points near the contact edge, by linear
-    fits.
-
-    shape   shape of the contact edge; supplies nearest cells and the window of the fits
-    ratio   shear over pressure of the cells (2, nx, ny)
-    weight  weight of the cells in the fits (nx, ny)
-    x, y    points as cell indices (n,)
-    """
+    """Fit the ratio of shear to pressure (2, n) linearly at points x, y in cell indices (n,)."""
     if not np.any(ratio):
         return np.zeros((2, len(x)))
     i, j = shape.nearest_to(x, y)

@@ -229,18 +229,8 @@ def _half_space_coefficients(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """Compute displacement and stress in a half-space by unit tractions on one surface cell.
-
-    The half-space is homogeneous, with the material of the body at the depth. The result (9,
-    tractions, nx, ny) has 3 displacements and 6 stresses by each traction component, at cell
-    offsets >= 0.
-
-    stack    layers and base of the body
-    level    depth with the index of its layer
-    spacing  cell sides [length]
-    shape    number of offsets nx, ny along x and y
-    sheared  include the responses to the shear components, before those to pressure
-    """
+    """Compute 3 displacements and 6 stresses by unit tractions on a cell (9, tractions, nx, ny),
+    at offsets >= 0 in a half-space of the material at the depth."""
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     return half_space_response(x, y, level.depth, material_at(stack, level), sheared=sheared)

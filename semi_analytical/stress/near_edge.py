@@ -256,13 +256,7 @@ def near_edge(
 
 
 def _stick_cells(pressure: Field, shear: Field) -> Mask:
-    """Return a mask (nx, ny) of the sticking cells, from the ratio of shear to pressure.
-
-    A cell sticks if its ratio is below SLIPPING times the largest ratio.
-
-    pressure  pressure of the cells (nx, ny)
-    shear     shear of the cells (2, nx, ny)
-    """
+    """Return a mask (nx, ny) of cells with shear over pressure below SLIPPING of its maximum."""
     region = pressure > 0
     size = np.hypot(*shear)
     ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)
@@ -270,32 +264,20 @@ def _stick_cells(pressure: Field, shear: Field) -> Mask:
 
 
 def _set_on_edge(phi: Quadratic) -> Quadratic:
-    """Set the constant term of fits about points of the contact edge to exactly zero.
-
-    The fitted function φ, the squared pressure, is zero there up to rounding.
-
-    phi  quadratics of φ about the edge points
-    """
+    """Set φ, the squared pressure, to exactly zero at edge points: it is zero up to rounding."""
     return replace(phi, f=np.zeros_like(phi.f))
 
 
 def _surface_stress(found: NearEdge, phi: Quadratic) -> Field:
-    """Compute the surface stress (6, n) [force/length^2] near the contact edge at n points.
-
-    found  tractions with their fit near the edge
-    phi    quadratics of φ about the points, with the pressure √φ
-    """
+    """Compute the surface stress (6, n) at points with the squared pressure `phi`
+    [force/length^2]."""
     return stress_at_surface(
         found.tractions, phi, found.plane, found.stack.outer, found.grid.spacing
     )
 
 
 def _largest_principal_stress(stress: Field) -> Field:
-    """Compute the largest in-plane principal stress of the surface at n points (n,).
-
-    At the contact edge the surface is free of traction.
-
-    stress  stress in the order xx, yy, zz, yz, xz, xy (6, n)
-    """
+    """Compute the largest in-plane stress (n,) of xx, yy, zz, yz, xz, xy (6, n), without
+    traction."""
     xx, yy, xy = stress[0], stress[1], stress[5]
     return np.asarray((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy))

@@ -50,13 +50,8 @@ def stress_from_beyond(
 
 
 def _cell_patches(cells: Field, i: Indices, j: Indices) -> Field:
-    """Return the tractions on the square patch of cells about each of n cells (n, 3, side, side).
-
-    side is 2 PATCH + 1 cells.
-
-    cells  tractions (q_x, q_y, p) of the cells, within PATCH layers of cells without traction
-    i, j   indices of the central cell of each patch (n,)
-    """
+    """Return (q_x, q_y, p) on the patch about each cell (n, 3, side, side), side = 2 PATCH + 1.
+    `cells` has PATCH layers of cells without traction around it."""
     shift = np.arange(2 * PATCH + 1)
     found = cells[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
     return np.moveaxis(found, 1, 0)

@@ -54,11 +54,8 @@ def clearance(stack: Stack, level: Level) -> float:
 
 @lru_cache(maxsize=1)
 def _known_tables(_stack: Stack, _reach: float, _sheared: bool) -> dict[Level, RadialTable]:
-    """Return the tables of one body that were computed already, by depth.
-
-    They are used again for the error estimate, with tractions in two other positions. The arguments
-    are the key of the cache.
-    """
+    """Return the tables of one body computed so far, by depth; the error estimate uses them again.
+    The arguments are the key of the cache."""
     return {}
 
 
@@ -125,12 +122,8 @@ def _hankel_transforms(
 
 
 def _bessel_functions(x: Array) -> tuple[Array, Array, Array, Array]:
-    """Compute the Bessel functions J_0 to J_3 of x, for the Hankel transforms.
-
-    The recurrence cancels at small x, where the weight alpha d alpha of the integral vanishes.
-
-    x  wavenumber alpha times distance from the force
-    """
+    """Compute J_0 to J_3.
+    The recurrence cancels at small x, where the weight of the Hankel transform vanishes."""
     first, second = j0(x), j1(x)
     third = 2 * second / x - first
     return first, second, third, 4 * third / x - second
@@ -235,14 +228,8 @@ def layered_coefficients(
 
 
 def _point_response(table: RadialTable, x: Field, y: Field) -> Field:
-    """Compute displacement and stress at points (x, y) of one depth by unit forces at the origin.
-
-    The forces act on the surface of a layered body. The result (9 times tractions, *x.shape) has 3
-    displacements and 6 stresses by each force component.
-
-    table  radial functions of the response at this depth
-    x, y   coordinates of the points [length]
-    """
+    """Compute 3 displacements and 6 stresses at points of one depth (9 times tractions, *x.shape),
+    by each unit force at the origin of the surface."""
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish
     functions = table(r.ravel()).reshape(-1, *x.shape)

@@ -113,12 +113,8 @@ class AxisPotentials:
 
 
 def _corner_differences(primitive: Field) -> Field:
-    """Evaluate an integral over a loaded rectangle, divided by 2π, from its corner primitive.
-
-    The result is the second difference of the primitive along the last two axes.
-
-    primitive  values at the corners of adjacent rectangles (…, nx + 1, ny + 1)
-    """
+    """Evaluate an integral over rectangles, over 2π,
+    as the second difference of its corner primitive (…, nx + 1, ny + 1)."""
     return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
 

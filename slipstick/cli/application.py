@@ -94,10 +94,7 @@ class LazyCommand:
 
 
 def _lazy_commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
-    """Return the lazy commands of the modules in `slipstick.cli.commands`, by name.
-
-    summaries  lines in `--help` by name of the command
-    """
+    """Return lazy commands by name, from their lines in `--help`."""
     return {
         name: LazyCommand(f"slipstick.cli.commands.{name}", name, summary)
         for name, summary in summaries.items()

@@ -70,11 +70,8 @@ FIGURE = {
 
 
 def _punch_row(place: Sequence[float], fineness: int) -> RowValues:
-    """Compute the stiffness of a rigid flat punch on a bonded layer over that on a half-space.
-
-    place     punch radius over layer thickness, and Poisson's ratio of the layer
-    fineness  factor of the numbers of Legendre orders and quadrature points
-    """
+    """Compute the stiffness of a rigid flat punch on a bonded layer over that on a half-space,
+    from radius over thickness and Poisson's ratio."""
     over, ratio = place
     shear = (1 - ratio) / 2  # E* = 2G/(1-ν) = 1
     layer = Bodies([Stack([(shear, ratio, 1 / over)])], 1.0)
@@ -88,7 +85,6 @@ def _ball_row(place: Sequence[float], fineness: int) -> RowValues:
 
     place     E1/E2, h/a_H and ν: modulus of the layer over that of the substrate, layer thickness
               over Hertz's contact radius, Poisson's ratio
-    fineness  factor of the numbers of orders and quadrature points
     """
     moduli, thickness, ratio = place
     shear = MODULUS * (1 - ratio) / 2
@@ -106,9 +102,7 @@ def _torsion_row(place: Sequence[float], fineness: int) -> RowValues:
     twist times G a_H²/(µ W). W is the normal force, a_H Hertz's contact radius on the substrate,
     and G the shear modulus with 1/G summed over both substrates.
 
-    place     E1/E2, h/a_H, ν, and torque over the torque of gross slip. E1/E2 is the modulus of the
-              layer over that of the substrate, and h is the layer thickness
-    fineness  factor of the numbers of orders and quadrature points
+    place     E1/E2, h/a_H, ν, and torque over the torque of gross slip, with the layer thickness h
     """
     moduli, thickness, ratio, part = place
     base = MODULUS * (1 - ratio)  # shear modulus; the E* of two equal bodies is G/(1-ν)

@@ -206,10 +206,6 @@ def _compare_scene(
     *,
     errors: bool,
 ) -> Comparison:
-    """Solve a scene and compare the measured curves with it.
-
-    errors  false to omit the stated errors of the scene
-    """
     result: Any = solve(contents, (solver or SolverName.SEMI_ANALYTICAL).value)
     stated = stated_errors(result) if errors else None
     with TemporaryDirectory() as directory:
@@ -218,10 +214,8 @@ def _compare_scene(
 
 
 def _read_table(path: Path, columns: str | None) -> Mapping[str, Numbers]:
-    """Read the measured columns of a table, and the load steps of the rows of a profile.
-
-    A column step with a unit or with words has no load steps.
-    """
+    """Read the measured columns of a table,
+    and the load steps of a profile if they are plain numbers."""
     measured = read_columns(path, MEASURED, columns)
     if PLACE in measured and columns is None:
         with suppress(ValueError):
@@ -275,11 +269,8 @@ def _share(option: str, text: str | None) -> float:
 
 
 def _required_shares(text: str | None) -> dict[str, float]:
-    """Return the required shares by name of the number; empty without a requirement.
-
-    Raises `SceneError` for a text that is no requirement, and ValueError for a value that is no
-    share.
-    """
+    """Return the required shares by name. Raise `SceneError` for a text that is no requirement,
+    and ValueError for a value that is no share."""
     if text is None:
         return {}
     try:

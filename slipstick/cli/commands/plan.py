@@ -99,13 +99,8 @@ def _print_prices(requests: Mapping[str, AccuracyRequest], solver: "DiscretisedS
 
 
 def _price_texts(levels: "Levels", last: "Fineness", seconds: float) -> tuple[str, ...]:
-    """Return the texts of the estimated cost of one accuracy, for a table.
-
-    The texts are cells, increments, time and memory.
-
-    last     discretisation of the last and finest level
-    seconds  CPU time of the first and the last level, with their coarse solves [s]
-    """
+    """Return the texts of cells, increments, time and memory for a table.
+    `seconds` is the CPU time of the first and the last level, with their coarse solves."""
     settings = levels.settings(last)
     cells, rings = settings.cells, settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""

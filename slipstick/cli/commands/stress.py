@@ -484,16 +484,7 @@ def _solve_scene(
 def _refuse_beside_section(
     solver: SolverName, depths: list[float] | None, volume: bool, at: list[str] | None = None
 ) -> None:
-    """Refuse options for solvers that compute the stress in one plane only.
-
-    Finite elements allow none of the options. The radial solver does not allow `--volume`. Raises
-    BadParameter.
-
-    solver  name of the solver
-    depths  values of the option `--depths`, or None
-    volume  value of the option `--volume`
-    at      values of the option `--at`, or None
-    """
+    """Raise BadParameter for options of the stress outside the one plane that a solver computes."""
     refuse_if(
         (
             (
@@ -513,14 +504,9 @@ def _refuse_beside_section(
 def _stress_field(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
-    """Compute the stress field in a body below the contact, for the command `slipstick stress`.
+    """Compute the stress field in a body, at depths [length] or those of the solver.
 
     Raises BadParameter for depths or a volume that the solver cannot compute.
-
-    state     bodies and surface tractions
-    depths    depths of the field [length]; None for those of the solver
-    indenter  true for the indenter, false for the lower body
-    volume    true for the field in the volume as well
     """
     if state.pressed is not None:
         _refuse_beside_section(SolverName.RADIAL, depths, volume)
