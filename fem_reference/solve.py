@@ -101,7 +101,9 @@ def solve(
             radius *= GROWTH
         else:
             reached = max(increment.contact_radius for increment in increments)
-            if not 0 < TOO_LARGE * reached < radius:
+            # A contact that reached the end of a smaller zone of fine elements extends beyond
+            # `reached`, the radius of a circle of its area.
+            if enlargements or not 0 < TOO_LARGE * reached < radius:
                 return Result(
                     scene, discretisation, model.sections, radius, chosen_plan, increments, method
                 )

@@ -64,6 +64,19 @@ ON_ELEMENTS = [
     *(replace(ALIKE, path=path, push=0.8) for path in (LoadingPath.FALLING, LoadingPath.SLIDE)),
     replace(SECTION, path=LoadingPath.SHEARED_RELOAD, push=0.8),
     replace(SECTION, surface=Surface.FLAT_PUNCH, push=0.9),
+    # The contact extends 1.6 times as far as a circle of its area.
+    pytest.param(
+        replace(
+            BARE_SECTION,
+            friction=5.0,
+            push=0.999,
+            modulus_ratio=1e3,
+            thickness=10.0,
+            base_ratio=0.3,
+            cells=48,
+        ),
+        marks=pytest.mark.slow,
+    ),
     # Pressures that jump to and fro between the turns unless they are damped.
     replace(BARE_SECTION, friction=5.0, push=0.9),
     # Several states obey all laws, and pairs of them vanish on the way to one.
