@@ -41,11 +41,9 @@ BOUND = {
     }.items()
     if annotation.physical and annotation.unit
 }
-# Those of a line contact have the names of its results.
+# Keys of the request. Those of a line contact have the names of its results.
 _KEYS = BOUND | {
-    shown: shown_mark(name, BOUND[name], line=True)
-    for name, shown in SHOWN_NAMES.items()
-    if name in BOUND
+    shown: shown_mark(name, BOUND[name], line=True) for name, shown in SHOWN_NAMES.items()
 }
 
 if TYPE_CHECKING:
