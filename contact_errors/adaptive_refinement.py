@@ -38,6 +38,7 @@ from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
 from contact_scene.contact_features import EDGE, PEAK
 from contact_scene.discretised import DiscretisedSolver, Fineness, Refinement, Work
 from contact_scene.machine import available_bytes
+from contact_scene.quantities.per_length import SHOWN_NAMES, rename_keys, shown_name
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
     AccuracySettings,
@@ -177,7 +178,8 @@ class RefinementLevel:
                 for part, cause in UNREFINED.items():
                     size = float(np.max(error.parts.get(part, 0.0))) / self.largest(name)
                     if size > share:
-                        return f"{cause} leave an error of {size:.2g} in {name} on any grid"
+                        shown = shown_name(name, line=self.result.scene.indenter.is_line)
+                        return f"{cause} leave an error of {size:.2g} in {shown} on any grid"
         return None
 
     def needed_factors(self, shares: Mapping[str, float]) -> Refinement:
@@ -448,6 +450,7 @@ def refine(
     estimated     function that is called after each level with its number, the requested errors and
                   the reached errors
     """
+    names = SHOWN_NAMES if levels.solver.scene.indenter.is_line else {}
     level = levels.solve_first_level()
     shares, left_out, _ = targets_of(request, level, levels)
     spent = 0.0
@@ -459,7 +462,7 @@ def refine(
         spent, rounds = spent + level.seconds, rounds + 1
         reached = {name: level.reached_error(name) for name in shares}
         if estimated is not None:
-            estimated(rounds, shares, reached)
+            estimated(rounds, rename_keys(shares, names), rename_keys(reached, names))
         better = level.excess(shares) <= best.excess(shares)
         best, worse = (level, 0) if better else (best, worse + 1)
         if level.meets(shares):
@@ -489,12 +492,12 @@ def refine(
                 kind = "" if isinstance(error, SolverError) else f"{type(error).__name__}: "
                 stopped = f"the next round has no answer: {kind}{error}"
     accuracy = AccuracyReached(
-        asked=shares,
-        reached={name: best.reached_error(name) for name in shares},
+        asked=rename_keys(shares, names),
+        reached=rename_keys({name: best.reached_error(name) for name in shares}, names),
         met=stopped is None,
         settings=levels.settings(best.fineness),
         rounds=rounds,
-        left_out=left_out,
+        left_out=rename_keys(left_out, names),
         stopped=stopped,
     )
     return Refined(best, accuracy)
@@ -525,7 +528,8 @@ def targets_of(
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named_quantities:
         if name in left_out:
-            raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
+            shown = shown_name(name, line=levels.solver.scene.indenter.is_line)
+            raise AccuracyOutOfReach(f"{shown} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
     last = levels.last(level, shares)
     coarsest = levels.last(level, {name: DOUBT * share for name, share in shares.items()})

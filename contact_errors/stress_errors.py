@@ -56,6 +56,7 @@ from contact_results.stress.stress_maxima import (
     Extreme,
     extremes,
 )
+from contact_scene import Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
 from contact_scene.discretised import PRECISION
@@ -89,7 +90,12 @@ EDGE_PRECISION = 1e-3
 
 
 def largest_stresses(
-    result: object, errors: StatedErrors | None, names: Collection[str], step: int | None = None
+    result: object,
+    errors: StatedErrors | None,
+    names: Collection[str],
+    step: int | None = None,
+    *,
+    given: Scene | None = None,
 ) -> Mapping[str, tuple[float, StatedError | None]]:
     """Compute the largest stresses in the regions of the lower body at the end of a load step.
 
@@ -101,8 +107,11 @@ def largest_stresses(
     names   requested stresses as MEASURE@REGION, such as "max_principal@body"; an interface is
             named by its number, and the side with the larger value is returned
     step    load step, from 1; None for the last
+    given   scene of the user, whose layers are the regions; None for those of the result
     """
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
+    if given is not None:
+        state = state.with_bodies_of(given)
     if not state.body.deforms:
         return {}
     field = body_response(state).stress()

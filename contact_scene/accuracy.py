@@ -11,6 +11,7 @@ from contact_scene.quantities.field_metadata import (
     reported,
 )
 from contact_scene.quantities.increment import State
+from contact_scene.quantities.per_length import ATTRIBUTES, SHOWN_NAMES, shown_mark
 from contact_scene.quantities.summary import ClosedCycle
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import Share
@@ -40,6 +41,10 @@ BOUND = {
     }.items()
     if annotation.physical and annotation.unit
 }
+# Keys of the request. Those of a line contact have the names of its results.
+_KEYS = BOUND | {
+    shown: shown_mark(name, BOUND[name], line=True) for name, shown in SHOWN_NAMES.items()
+}
 
 if TYPE_CHECKING:
     _Named = Description
@@ -52,7 +57,7 @@ else:
                 Share | None,
                 Field(None, description=f"Largest error, relative: {annotation.meaning}"),
             )
-            for name, annotation in BOUND.items()
+            for name, annotation in _KEYS.items()
         },
     )
 
@@ -72,8 +77,11 @@ class AccuracyRequest(_Named):
 
     @property
     def named_quantities(self) -> tuple[str, ...]:
-        """Names of the quantities with an individual error limit, in the order of the results."""
-        return tuple(name for name in BOUND if getattr(self, name) is not None)
+        """Names of the quantities with an individual error limit, in the order of the results.
+
+        These are attributes of the results, also for a line contact.
+        """
+        return tuple(self._own_shares())
 
     def shares(self) -> Mapping[str, float]:
         """Return the largest allowed relative error of each scalar that has a limit, by its name.
@@ -82,7 +90,14 @@ class AccuracyRequest(_Named):
         largest value of the scalar in the load history.
         """
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
-        return overall | {name: getattr(self, name) for name in self.named_quantities}
+        return overall | self._own_shares()
+
+    def _own_shares(self) -> dict[str, float]:
+        return {
+            ATTRIBUTES.get(key, key): share
+            for key in _KEYS
+            if (share := getattr(self, key)) is not None
+        }
 
     @property
     def binds_stress(self) -> bool:

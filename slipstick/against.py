@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from contact_results.files.stored_run import StoredRun
 from contact_results.surface import Rings
 from contact_scene.checks.line_contact import lacks_reference
+from contact_scene.quantities.per_length import shown_unit
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.reading import units
 from contact_scene.reading.text_table import ColumnNames
@@ -33,18 +34,22 @@ Numbers = NDArray[np.float64]
 SHIFT = "tangential_shift"
 ACTUATOR = "actuator_shift"
 LOAD = "tangential_force"
+LOAD_PER_LENGTH = "tangential_force_per_length"
 PLACE = "x"
 PRESSURE = "pressure"
 SHEAR = "shear"
 STEP = "step"
-# Accepted heads of measured columns, including those of increments.csv and profiles.csv.
+_HEADS_OF_LOAD = frozenset({"t", "f", "force", "tangential_force", "tangential_force_x"})
+# Accepted heads of measured columns, including those of increments.csv and profiles.csv. The unit
+# of a load decides whether it is per length, as that of a line contact.
 MEASURED: ColumnNames = {
     SHIFT: (
         units.LENGTH,
         frozenset({"shift", "delta", "δ", "tangential_shift", "tangential_shift_x"}),
     ),
     ACTUATOR: (units.LENGTH, frozenset({"actuator_shift", "actuator_shift_x", "delta*", "δ*"})),
-    LOAD: (units.FORCE, frozenset({"t", "f", "force", "tangential_force", "tangential_force_x"})),
+    LOAD: (units.FORCE, _HEADS_OF_LOAD),
+    LOAD_PER_LENGTH: (units.FORCE_PER_LENGTH, _HEADS_OF_LOAD),
     PLACE: (units.LENGTH, frozenset({"x"})),
     PRESSURE: (units.PRESSURE, frozenset({"p", "pressure"})),
     SHEAR: (units.PRESSURE, frozenset({"q", "shear", "shear_x"})),
@@ -138,22 +143,16 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
 
     Raises NothingToCompare if the columns of the table or the run do not allow a comparison.
 
-    table  columns by name in SI units: shift and T of a loop, or x with p, q or both of a profile,
-           and the load step of each row if the table has several
+    table  columns by name in SI units: shift and T of a loop, T per length for a line contact; or x
+           with p, q or both of a profile, and the load step of each row if the table has several
     run    stored run
     step   load step at whose end profiles are compared, from 1; the last of the run if None
     """
-    for motion in (ACTUATOR, SHIFT):
-        if {motion, LOAD} <= table.keys():
-            if step is not None:
-                raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
-            if run.scene.indenter.is_line:
-                raise NothingToCompare(
-                    "the table is a loop of a force, and a line contact has forces per length; "
-                    "compare a profile (x with p or q)"
-                )
-            theirs = np.stack([table[motion], table[LOAD]])
-            return _compare_loops(theirs, run, motion)
+    motions = [motion for motion in (ACTUATOR, SHIFT) if motion in table]
+    if motions and {LOAD, LOAD_PER_LENGTH} & table.keys():
+        if step is not None:
+            raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
+        return _compare_loops(np.stack([table[motions[0]], _load(table, run)]), run, motions[0])
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
         count = len(run.summary.steps)
         step = step or count
@@ -162,6 +161,31 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
         f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
         "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
     )
+
+
+def _load(table: Mapping[str, Numbers], run: StoredRun) -> Numbers:
+    """Return the tangential force of a loop: per length for a line contact.
+
+    Raises NothingToCompare for a force that has not the unit of the contact, and for a line contact
+    without shift.
+    """
+    if not run.scene.indenter.is_line:
+        if LOAD not in table:
+            raise NothingToCompare(
+                "got T per length, and the contact is no line contact; give T in N, such as 'T [N]'"
+            )
+        return table[LOAD]
+    if LOAD_PER_LENGTH not in table:
+        raise NothingToCompare(
+            "got T in N, and a line contact has forces per length; divide T by the length of the "
+            "contact, and name its unit, such as 'T [N/mm]'"
+        )
+    if lacks_reference(run.scene.indenter, run.scene.body):
+        raise NothingToCompare(
+            "the shift of a line contact depends on the distance at which the surface is fixed; "
+            'add indenter.reference_length to the scene, such as "20 mm"'
+        )
+    return table[LOAD_PER_LENGTH]
 
 
 @dataclass(frozen=True, eq=False)
@@ -335,27 +359,30 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     if of_shift is not None and of_force is not None:
         parts = of_shift / np.ptp(ours.shift) + of_force / np.ptp(ours.force)
         of_slope = float(2 * parts * ours.slope)
+    newton, joule, stiffness = (
+        shown_unit(unit, line=run.scene.indenter.is_line) for unit in ("N", "J", "N/m")
+    )
     gaps = table[:, -1] - table[:, 0]
     numbers = []
     for name, unit, gap, each, error in (
         ("gap of shift", "m", gaps[0], ours.shift, of_shift),
-        ("gap of force", "N", gaps[1], ours.force, of_force),
+        ("gap of force", newton, gaps[1], ours.force, of_force),
     ):
         own = float(each[-1] - each[0])
         numbers.append(_compare_number(name, unit, float(gap), own, error))
     for name, unit, measured, computed, error in (
         ("centre of shift", "m", theirs.shift, ours.shift, of_shift),
-        ("centre of force", "N", theirs.force, ours.force, of_force),
+        ("centre of force", newton, theirs.force, ours.force, of_force),
     ):
         centres = _loop_centre(measured), _loop_centre(computed)
         numbers.append(_compare_number(name, unit, *centres, error))
-    numbers.append(_compare_number("slope", "N/m", theirs.slope, ours.slope, of_slope))
+    numbers.append(_compare_number("slope", stiffness, theirs.slope, ours.slope, of_slope))
     # A drift of any course changes the energy by less than its size times the largest distance of
     # the other coordinate from its mean.
     furthest = [np.max(np.abs(each - np.mean(each))) for each in (theirs.force, theirs.shift)]
     cycles = len(theirs.cycles)
     energy = _compare_number(
-        "energy per cycle", "J", theirs.area / cycles, end.energy_per_cycle or 0.0, of_energy
+        "energy per cycle", joule, theirs.area / cycles, end.energy_per_cycle or 0.0, of_energy
     )
     of_table = float(np.abs(gaps) @ furthest + theirs.area_error) / cycles
     numbers.append(replace(energy, of_table=of_table))
@@ -370,11 +397,13 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
     error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
     along_loop = np.concatenate(differences)
-    along = _compare_curves("force along the loop", "N", theirs_half, ours_half, error, along_loop)
+    along = _compare_curves(
+        "force along the loop", newton, theirs_half, ours_half, error, along_loop
+    )
     # A drift of another course than the subtracted one, after the loops have a common centre.
     of_drift = float(abs(gaps[1]) + abs(gaps[0]) * theirs.slope) / 2
     numbers.append(replace(along, of_table=of_drift))
-    curve = ComparedCurve("shift", "m", "force", "N", theirs.about_centre, ours.about_centre)
+    curve = ComparedCurve("shift", "m", "force", newton, theirs.about_centre, ours.about_centre)
     return Comparison(tuple(numbers), (curve,))
 
 

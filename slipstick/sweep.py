@@ -26,7 +26,7 @@ from contact_results.number_text import uncertainty
 from contact_results.result_report import ResultReport
 from contact_results.stress.points import MEASURES, ON_INTERFACES, layer_name
 from contact_results.stress.stress_maxima import SURFACE, interface_sides
-from contact_scene import Body, SceneError, read_scene_file
+from contact_scene import Body, Scene, SceneError, read_scene_file
 from contact_scene.quantities.field_metadata import (
     Kind,
     reported,
@@ -112,12 +112,10 @@ def quantities(body: Body, *, line: bool = False) -> tuple[str, ...]:
     """Return the names of all quantities that a sweep can write for a scene.
 
     The quantities are the scalars of summary.json, with vectors by component, and the largest
-    stresses of the body as MEASURE@REGION, which line contacts do not have.
+    stresses of the body as MEASURE@REGION.
 
     line  True for a line contact
     """
-    if line:
-        return tuple(shown_name(name, line=True) for name in SCALARS)
     layers = len(body.layers)
     interfaces = [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
     regions = ["body"]
@@ -128,7 +126,7 @@ def quantities(body: Body, *, line: bool = False) -> tuple[str, ...]:
         for measure in MEASURES
         for region in (interfaces if measure in ON_INTERFACES else [*regions, *interfaces])
     ]
-    return (*SCALARS, *stresses)
+    return (*(shown_name(name, line=line) for name in SCALARS), *stresses)
 
 
 @dataclass(frozen=True)
@@ -188,8 +186,9 @@ class SweepPoint:
         if self.invalid:
             return self.record(self.invalid)
         try:
-            result: Any = solve(read_scene_file(self.file, self.overrides), self.solver)  # type: ignore[call-overload]
-            numbers = dict(self._numbers(result))
+            contents = read_scene_file(self.file, self.overrides)
+            result: Any = solve(contents, self.solver)  # type: ignore[call-overload]
+            numbers = dict(self._numbers(result, contents.scene))
         except SolverError as error:
             return self.record(f"{type(error).__name__}: {error}")
         record = self.record()
@@ -203,12 +202,13 @@ class SweepPoint:
                 record.words["not converged"] += f"{name} "
         return record
 
-    def _numbers(self, result: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
+    def _numbers(self, result: Any, scene: Scene) -> Iterator[tuple[str, tuple[Any, ...]]]:
         """Yield name and data of each requested quantity at the end of the last load step.
 
         The data are value, stated error, component of a vector ("x", "y" or empty) and unit.
 
         result  result of the solve of the sweep point
+        scene   scene of the sweep point, with layers that the solver merges
         """
         stated = stated_errors(result) if self.with_error else None
         end = summary_of(ResultReport.of(result, stated).with_cycles()).steps[-1]
@@ -223,7 +223,7 @@ class SweepPoint:
         wanted = {name for name in self.wanted if "@" in name}
         if wanted and not result.scene.body.deforms:
             raise UnsupportedScene("the body is rigid and has no stress; omit the stresses")
-        largest = largest_stresses(result, stated, wanted) if wanted else {}
+        largest = largest_stresses(result, stated, wanted, given=scene) if wanted else {}
         for name, (value, error) in largest.items():
             yield name, (value, error, "", "Pa")
 

@@ -211,6 +211,100 @@ def test_the_shear_of_a_line_contact_has_an_error_without_a_reference_length(
     assert found.gap < found.error < 0.1 * exact
 
 
+# ---- Loops of line contacts, whose forces are per length.
+
+PUSHES = "".join(
+    f"[[loading]]\ntangential_force = ['{T} N/mm', 0]\nincrements = 6\n" for T in (-50, 50)
+)
+LINE_LOOP = (
+    LINE.replace("[body]", 'reference_length = "20 mm"\n[body]')
+    .replace("[semi_analytical]", f"{PUSHES}[semi_analytical]")
+    .replace("cells = 64", "cells = 32")
+)
+
+
+@pytest.fixture(scope="module")
+def line_place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A loop of a cylinder in `line.toml`, its run in `line`, and the same without its length."""
+    directory = tmp_path_factory.mktemp("line")
+    lost = LINE_LOOP.replace("reference_length", "# reference_length")
+    for name, text in (("line", LINE_LOOP), ("lost", lost)):
+        (directory / f"{name}.toml").write_text(text, encoding="utf-8")
+    succeeded("run", "line.toml", "-o", "line", "--figures", "none", cwd=directory)
+    return directory
+
+
+def line_loop(line_place: Path, unit: str = "N/mm", factor: float = 1e-3) -> Path:
+    """The loop of the run with a force 3 % too small, in a unit per N/m."""
+    path = line_place / "line/increments.csv"
+    names = ("tangential_shift_x [m]", "tangential_force_x [N/m]")
+    shift, force = (
+        np.append(column(path, name, ("2",))[-1], column(path, name, ("3", "4"))) for name in names
+    )
+    heads = {"shift [um]": 1e6 * shift, f"T [{unit}]": 0.97 * factor * force}
+    return table(line_place / "measured.csv", **heads)
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor", "options"),
+    [
+        ("N/mm", 1e-3, ()),
+        ("kN/m", 1e-3, ()),
+        ("no unit", 1e-3, ("--columns", "shift=1, T=2 N/mm")),
+    ],
+)
+def test_a_loop_of_forces_per_length_is_compared_with_a_line_contact(
+    line_place: Path, unit: str, factor: float, options: tuple[str, ...]
+) -> None:
+    """Energy and slope are per length. The energy is that of the run, to the area of few points."""
+    measured = line_loop(line_place, unit, factor)
+    command = ("against", measured, "line", *options, "--require", "slope 2%", "-o", "out")
+    assert outcome(*command, cwd=line_place).returncode == 1
+    numbers = compared(line_place, "out")["numbers"]
+    units = {name: numbers[name]["unit"] for name in ("slope", "energy_per_cycle", "gap_of_force")}
+    assert units == {"slope": "N/m^2", "energy_per_cycle": "J/m", "gap_of_force": "N/m"}
+    assert numbers["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
+    energy = numbers["energy_per_cycle"]
+    steps = json.loads((line_place / "line/summary.json").read_text("utf-8"))["steps"]
+    assert energy["computed"] == steps[-1]["energy_per_cycle"]
+    assert energy["measured"] == pytest.approx(0.97 * energy["computed"], abs=energy["of_table"])
+    assert energy["of_table"] < 0.2 * energy["computed"]
+    assert numbers["centre_of_force"]["measured"] == pytest.approx(0, abs=1e-3)
+
+
+def test_inputs_of_a_line_contact_are_fitted_and_uncertain(line_place: Path) -> None:
+    """The shift grows by 2T/πE* for each unit of the logarithm of the reference length."""
+    measured, key = line_loop(line_place), "indenter.reference_length"
+    per_logarithm = 2 * 50e3 / (np.pi * 210e9 / 0.91 / 2)
+    shift = np.max(column(line_place / "line/increments.csv", "tangential_shift_x [m]", ("4",)))
+    fitted = against_scene(line_place, measured, "line.toml", "--fit", f"{key}=21 mm")
+    # A force 3 % too small at equal shifts has the slope of a shift that is too large.
+    length = 20 * np.exp((1 / 0.97 - 1) * shift / per_logarithm)
+    assert fitted["fitted"][0]["value"] == pytest.approx(length, rel=1e-3)
+    uncertain = against_scene(line_place, measured, "line.toml", "--inputs", f"{key}=20±0.5 mm")
+    slope = uncertain["numbers"]["slope"]
+    by_length = 2 * 0.5 / 20 * per_logarithm / shift * slope["computed"]
+    assert slope["uncertainty"] == pytest.approx(np.hypot(by_length, slope["error"]), rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("unit", "scene", "message"),
+    [
+        ("N", "line.toml", "divide T by the length of the contact, and name its unit, such as"),
+        ("N/mm", "lost.toml", "add indenter.reference_length"),
+        ("Pa", "line.toml", "the units are N, uN"),
+    ],
+)
+def test_a_loop_that_is_no_line_loop_is_refused(line_place, unit, scene, message) -> None:
+    assert message in refusal(line_place, line_loop(line_place, unit), scene)
+
+
+def test_a_force_per_length_on_a_ball_is_refused(place: Path) -> None:
+    _, shift, force = loop(place)
+    per_length = table(place / "per.csv", **{"shift [m]": shift, "T [N/m]": force})
+    assert "the contact is no line contact; give T in N" in refusal(place, per_length, "run")
+
+
 def test_a_profile_with_several_load_steps_is_compared_step_by_step(place: Path) -> None:
     """The profiles of a run agree with those of the run at each of its load steps."""
     profiles = place / "run/profiles.csv"

@@ -14,13 +14,17 @@ from contact_errors.error_formula import values_of
 from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
 from slipstick import solve
+from slipstick.cli.commands.convergence import SETTINGS
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import EllipticalContact, PointContact, tangential_modulus
+from verification.closed_forms.line_contact import CylinderContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
+from verification.judging.outcome import Status
 from verification.references import load_reference
 from verification.studies.refinement.levels import StudiedScene, plan_of
 from verification.studies.refinement.limits import Estimate, estimates
+from verification.studies.refinement.study import scene_study
 
 R = 18e-3
 W = 1e3
@@ -246,6 +250,24 @@ def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) ->
     *_, ladder = plan_of(StudiedScene(contents, 2, CELLS), 10).ladders
     first, *_ = [level.fineness.increments for level in ladder.levels.values()]
     assert first == (4, 4)
+
+
+def test_strips_of_a_line_contact_are_refined(tmp_path: Path) -> None:
+    """A required half width is judged by its levels of strips, against Hertz."""
+    shape = BALL.replace("paraboloid", "cylinder")
+    pressed = text(shape, STEEL, STEEL).replace("1 kN", "1 kN/mm")
+    studied = StudiedScene(read(f"{pressed}[semi_analytical]\ncells = 256", tmp_path), 1, CELLS)
+    study = scene_study(studied, 4, "half_width 1%", 1.0)
+    cases = [
+        case for case in study.cases(SETTINGS) if not case.name.startswith(f"{CELLS}-accuracy")
+    ]
+    conclusion = study.conclude(SETTINGS, {case.name: case.compute() for case in cases})
+    (judged,) = conclusion.statements
+    assert (judged.claim, judged.outcome) == ("required accuracy of the half width", Status.PASS)
+    (row,) = (row for row in conclusion.rows if row.parameters["quantity"] == "half_width")
+    exact = CylinderContact(1e6, 18e-3, 210e9 / 0.91 / 2, 1.0).contact_radius
+    assert row.measures["limit"] == pytest.approx(exact, abs=row.measures["uncertainty"])
+    assert row.measures["uncertainty"] < 2e-3 * exact
 
 
 @pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])

@@ -12,6 +12,7 @@ from contact_scene.body import Body
 from contact_scene.checks.line_contact import (
     friction_map_on_line,
     loads_out_of_plane,
+    names_of_accuracy,
     undefined_motions,
     wrong_dimension,
     wrong_units,
@@ -245,4 +246,5 @@ _CHECKS: tuple[Callable[..., Iterator[Problem]], ...] = (
     undefined_motions,
     wrong_dimension,
     friction_map_on_line,
+    names_of_accuracy,
 )

@@ -5,12 +5,14 @@ from typing import Any
 
 import numpy as np
 
+from contact_scene.accuracy import AccuracyRequest
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter, LineShape, ShapedBody
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID
+from contact_scene.quantities.per_length import ATTRIBUTES, SHOWN_NAMES
 from contact_scene.reading.quantity import PerLength, WithUnit
 from contact_scene.reading.scene_error import Path, Problem
 from contact_scene.rig import Rig
@@ -131,3 +133,15 @@ def friction_map_on_line(indenter: Indenter, friction: CoulombFriction | None) -
             "the coefficient of friction of a line contact is a map",
             "one number",
         )
+
+
+def names_of_accuracy(indenter: Indenter, accuracy: AccuracyRequest | None) -> Iterator[Problem]:
+    """Find requested accuracies of widths by names that the results of the contact do not have."""
+    line = indenter.is_line
+    for wrong, right in (SHOWN_NAMES if line else ATTRIBUTES).items():
+        if getattr(accuracy, wrong, None) is not None:
+            yield Problem(
+                ("accuracy", wrong),
+                f"the results of a {indenter.shape.replace('_', ' ')} do not have this name",
+                right,
+            )

@@ -10,6 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts
 from contact_scene.checks.consistency import inconsistencies
+from contact_scene.checks.line_contact import names_of_accuracy
+from contact_scene.geometry import Indenter
 from contact_scene.reading.description import Description
 from contact_scene.reading.override import (
     assign,
@@ -101,18 +103,22 @@ def _add_place(
     return replace(problem, file=file, line=line)
 
 
-def read_accuracy(text: str, option: str) -> AccuracyRequest:
+def read_accuracy(text: str, option: str, indenter: Indenter) -> AccuracyRequest:
     """Parse and check the requested accuracy in the text of a command-line option.
 
     Examples of the text are "0.1%" and "peak_pressure 0.1%, approach 1%".
 
-    text    text of the command-line option
-    option  name of the option, for messages
+    text      text of the command-line option
+    option    name of the option, for messages
+    indenter  indenter of the scene, which determines the names of results
 
     Raises `SceneError` with every mistake.
     """
     try:
-        return _validate_tables(_Accuracy, {"accuracy": accuracy_texts(text)}, {}).accuracy
+        found = _validate_tables(_Accuracy, {"accuracy": accuracy_texts(text)}, {}).accuracy
+        if problems := [*names_of_accuracy(indenter, found)]:
+            raise SceneError(problems)
+        return found
     except SceneError as error:
         raise SceneError(replace(problem, file=option) for problem in error.problems) from None
 

@@ -18,6 +18,7 @@ from contact_scene.reading.scene_error import refusal, shown
 from contact_scene.reading.units import Kind
 
 # Accepted heads of the columns of each quantity, in lower case and without units, with its kind.
+# The unit decides between quantities with the same head.
 ColumnNames = Mapping[str, tuple[Kind, frozenset[str]]]
 
 TABLE_SUFFIXES = (".csv", ".txt")
@@ -208,24 +209,40 @@ def _known_columns(heads: list[str], names: ColumnNames, file: str) -> dict[str,
     for column, head in enumerate(heads):
         match = _HEAD.fullmatch(head)
         name = match["name"].strip().lower() if match else ""
-        for quantity, (kind, accepted) in names.items():
-            if name not in accepted:
-                continue
-            unit = (match["unit"] or "").strip() if match else ""
-            if unit not in kind.units:
-                raise refusal(
-                    f"{shown(file)}: got the column {shown(head)}",
-                    f"the unit of its numbers, such as {shown(f'{name} [{kind.si}]')}",
-                    f"the units are {', '.join(filter(str.isascii, kind.units))}",
-                )
-            if quantity in found:
-                raise refusal(
-                    f"{shown(file)}: got the columns {shown(heads[found[quantity][0]])} and "
-                    f"{shown(head)}",
-                    f"one column of {quantity}",
-                )
-            found[quantity] = column, float(kind.units[unit])
+        if match is None or not any(name in accepted for _, accepted in names.values()):
+            continue
+        unit, got = (match["unit"] or "").strip(), f"{shown(file)}: got the column {shown(head)}"
+        quantity, factor = _quantity_of(name, unit, names, got, f"{name} [{{}}]")
+        if quantity in found:
+            raise refusal(
+                f"{shown(file)}: got the columns {shown(heads[found[quantity][0]])} and "
+                f"{shown(head)}",
+                f"one column of {quantity}",
+            )
+        found[quantity] = column, factor
     return found
+
+
+def _quantity_of(
+    name: str, unit: str, names: ColumnNames, got: str, example: str
+) -> tuple[str, float]:
+    """Return the quantity of a column with a known name, and the factor of its unit to SI.
+
+    Raises a validation error for a unit of no quantity with this name.
+
+    got, example  received column, and an expected one with {} in place of the unit, for the message
+    """
+    kinds = {quantity: kind for quantity, (kind, accepted) in names.items() if name in accepted}
+    for quantity, kind in kinds.items():
+        if unit in kind.units:
+            return quantity, float(kind.units[unit])
+    units = [unit for kind in kinds.values() for unit in kind.units if unit.isascii()]
+    first = next(iter(kinds.values()))
+    raise refusal(
+        got,
+        f"the unit of its numbers, such as {shown(example.format(first.si))}",
+        f"the units are {', '.join(units)}",
+    )
 
 
 def _chosen_columns(
@@ -243,8 +260,8 @@ def _chosen_columns(
     for item in chosen.split(","):
         match = _CHOICE.fullmatch(item)
         name = match["name"].strip().lower() if match else ""
-        quantity = next((q for q, (_, accepted) in names.items() if name in accepted), None)
-        if match is None or quantity is None or quantity in found:
+        of_name = {quantity for quantity, (_, accepted) in names.items() if name in accepted}
+        if match is None or not of_name or of_name & found.keys():
             raise refusal(
                 f"got the choice {shown(item.strip())}",
                 'different names with the number of a column, such as "shift=2 um, T=3 N"',
@@ -257,14 +274,9 @@ def _chosen_columns(
             )
         head = _HEAD.fullmatch(heads[column])
         unit = (match["unit"] or (head and head["unit"]) or "").strip()
-        kind = names[quantity][0]
-        if unit not in kind.units:
-            raise refusal(
-                f"got {shown(item.strip())} and the head {shown(heads[column])}",
-                f"the unit of its numbers, such as {shown(f'{name}={column + 1} {kind.si}')}",
-                f"the units are {', '.join(filter(str.isascii, kind.units))}",
-            )
-        found[quantity] = column, float(kind.units[unit])
+        got = f"got {shown(item.strip())} and the head {shown(heads[column])}"
+        quantity, factor = _quantity_of(name, unit, names, got, f"{name}={column + 1} {{}}")
+        found[quantity] = column, factor
     return found
 
 

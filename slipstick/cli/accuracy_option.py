@@ -62,7 +62,9 @@ def read_requested_accuracy(
     most_seconds  value of `--most-seconds` [s], or None
     error         false for `--no-error`
     """
-    request = contents.accuracy if option is None else read_accuracy(option, "--accuracy")
+    request = contents.accuracy
+    if option is not None:
+        request = read_accuracy(option, "--accuracy", contents.indenter)
     refuse_if(
         (
             (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
 from enum import StrEnum
 from pathlib import Path
@@ -143,17 +143,25 @@ def refuse_if(refusals: Iterable[tuple[object, str]]) -> None:
 SIMILAR = 0.5  # least similarity of a suggested name, from 0 to 1
 
 
-def refuse_unknown(kind: str, given: Iterable[str], known: Collection[str], listing: str) -> None:
+def refuse_unknown(
+    kind: str,
+    given: Iterable[str],
+    known: Collection[str],
+    listing: str,
+    renamed: Mapping[str, str] | None = None,
+) -> None:
     """Raise BadParameter if any name does not exist, with the most similar names.
 
     kind          noun for a name, such as "case"
     given, known  names to check, and all existing names
     listing       command that lists all names
+    renamed       present names by names that are known elsewhere
     """
     messages = []
     for name in given:
         if name not in known:
-            near = get_close_matches(name[:100].lower(), known, 1, SIMILAR)
+            own = (renamed or {}).get(name)
+            near = [own] if own else get_close_matches(name[:100].lower(), known, 1, SIMILAR)
             meant = f", did you mean {near[0]}?" if near else ""
             messages.append(f"no {kind} is called '{name}'{meant}")
     if messages:

@@ -134,9 +134,10 @@ def against(
 ) -> None:
     """Compare a run with a measured loop or profile.
 
-    A loop has the columns shift and T, such as 'shift [um],T [N]'. The last load cycle of the run
-    is compared with it. A profile has x with p, q or both, along y = 0, and may have several load
-    steps with their numbers in a column step. Other columns are ignored.
+    A loop has the columns shift and T, such as 'shift [um],T [N]', or T [N/mm] of a line contact.
+    The last load cycle of the run is compared with it. A profile has x with p, q or both, along
+    y = 0, and may have several load steps with their numbers in a column step. Other columns are
+    ignored.
     The last column of the output is the largest part of the difference that the stated error
     explains. With --inputs or --deviation, a difference has its validation uncertainty: two
     standard deviations by numerical error, inputs and table.

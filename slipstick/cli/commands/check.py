@@ -37,16 +37,19 @@ def check(
         typer.echo(json.dumps({"valid": True, "problems": [], "warnings": warnings}, indent=2))
         return
 
+    from contact_scene.quantities.per_length import shown_name
     from contact_scene.reading.scene_text import describe
     from slipstick.cli.terminal import print_message, print_pairs
 
     typer.echo(f"{scene}: valid")
     print_pairs(describe(contents.scene, contents.semi_analytical, contents.fem_reference))
     if contents.accuracy is not None:
-        shares = contents.accuracy.shares().items()
-        print_pairs(
-            [("accuracy", ", ".join(f"{name} {100 * share:.3g} %" for name, share in shares))]
+        line = contents.indenter.is_line
+        shares = ", ".join(
+            f"{shown_name(name, line=line)} {100 * share:.3g} %"
+            for name, share in contents.accuracy.shares().items()
         )
+        print_pairs([("accuracy", shares)])
     for warning in warnings:
         print_message(f"warning: {warning}")
 

@@ -49,8 +49,10 @@ def plan(
     radius, or half the rings. A scene that the solver does not support is refused as by 'run'. With
     --accuracy, the cost of each accuracy is estimated by a coarse solve with all increments.
     """
-    requests = {item: read_accuracy(item, "--accuracy") for item in accuracy or ()}
     contents = read_scene_file(scene, overrides or ())
+    requests = {
+        item: read_accuracy(item, "--accuracy", contents.indenter) for item in accuracy or ()
+    }
     print_input_warnings(contents)
     chosen = solver.solver.of_file(contents)
     effects = chosen.run_plan.effects

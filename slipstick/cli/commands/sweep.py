@@ -18,6 +18,7 @@ from contact_results.number_text import Uncertainty, number_text
 from contact_results.radial_method import radial_method
 from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
+from contact_scene.quantities.per_length import ATTRIBUTES, SHOWN_NAMES
 from contact_scene.solver_errors import SolverError
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
@@ -106,8 +107,9 @@ def sweep(
     contents = read_scene_file(scene, valid.overrides)
     first = contents.scene
     listing = "slipstick maintain schema summary"
-    known = quantities(first.body, line=first.indenter.is_line)
-    refuse_unknown("quantity", names, known, listing)
+    line = first.indenter.is_line
+    known = quantities(first.body, line=line)
+    refuse_unknown("quantity", names, known, listing, SHOWN_NAMES if line else ATTRIBUTES)
     expectation = read_expectation(
         expect,
         save_expected,

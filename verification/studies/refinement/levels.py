@@ -220,7 +220,7 @@ class AccuracyLevel:
         A reason why the request is not met is recorded as `stopped`.
         """
         level = f"--accuracy {self.request}"
-        request = read_accuracy(self.request, "--accuracy")
+        request = read_accuracy(self.request, "--accuracy", self.scene.contents.indenter)
         solver = self.scene.discretised()
         try:
             with cold_cache():
@@ -362,7 +362,9 @@ def _space_ladder(
         if len(found) == (count or kind.count):
             break
         space = solver.refine_space(own.space, {part: factor})
-        size = _parameter(solver, part, space)
+        size = np.atleast_1d(_parameter(solver, part, space))
+        if solver.scene.indenter.is_line:
+            size = size[:1]  # strips are one row of cells
         if space not in found.values() and least <= np.min(size) and np.max(size) <= most:
             found[1 / factor] = space
     levels = {

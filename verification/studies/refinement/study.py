@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import isfinite
 from typing import TypeAlias
 
+from contact_scene.quantities.per_length import shown_name
 from contact_scene.reading.scene_file import read_accuracy
 from verification.exhibits.chart import (
     Chart,
@@ -72,7 +73,7 @@ def scene_study(
     """
     asked = scene.contents.accuracy
     if requirement is not None:
-        asked = read_accuracy(requirement, "--require")
+        asked = read_accuracy(requirement, "--require", scene.contents.indenter)
     chosen = AccuracyLevel(scene, requirement or USUAL, most_seconds)
     # The setting of a scene with a table [accuracy] is the one that its request chooses.
     of_request = (chosen,) if requirement or asked is None else ()
@@ -94,10 +95,12 @@ def scene_study(
             for name, of_curve in curves
         ]
         shares = asked.shares() if asked else {}
+        line = scene.contents.indenter.is_line
+        named = [shown_name(name, line=line) for name in (asked.named_quantities if asked else ())]
         return Conclusion(
             statements=(
                 *_refusals(records.values()),
-                *_requirements(shares, of, asked.named_quantities if asked else ()),
+                *_requirements(shares, of, named),
                 *_infinite_limits(records.values()),
                 *(_cost_statement(records[x.name]) for x in of_request if x.name in records),
             ),
@@ -159,7 +162,7 @@ def _requirements(
                 because=f"largest part by {one.worst.noun}: {one.worst.remedy}"
                 + (f"; {one.open}" if one.open else ""),
             )
-    for name in sorted(set(named) - {one.of for one in of}):
+    for name in sorted(set(named) - {known for one in of for known in (one.of, one.name)}):
         yield Statement(
             claim=f"required accuracy of the {label(name)}",
             outcome=Status.INCONCLUSIVE,
