@@ -274,8 +274,9 @@ def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[
     """Find the largest stresses near the surface and, separately, those below.
 
     The two places have different convergence orders. There is one value for each region of the body
-    and each stress measure. Points near the surface include the fitted contact edge. The values
-    near the surface are returned with the key True, those below with the key False.
+    and each stress measure, and none at a place without points, such as near the surface for chosen
+    depths below. Points near the surface include the fitted contact edge. The values near the
+    surface are returned with the key True, those below with the key False.
 
     field  stress field
     near   depth that divides the points [length]
@@ -285,7 +286,7 @@ def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[
         points, edge = field.points.select(chosen), field.edge if at_edge else None
         if edge is not None and not points.x.size:
             points, edge = edge.points, None
-        each = extremes(replace(field, points=points, edge=edge))
+        each = extremes(replace(field, points=points, edge=edge)) if points.x.size else ()
         found[at_edge] = {(e.region, e.measure): e.value for e in each}
     return found
 
