@@ -20,6 +20,7 @@ from contact_results.key_numbers import PRODUCTS
 from contact_results.number_text import Uncertainty, number_text, uncertainty
 from contact_results.stress.stress_maxima import Extreme
 from contact_scene import Scene
+from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.quantities.round_off import ROUND_OFF, natural_size
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import StepSummary
@@ -132,10 +133,11 @@ def _leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[Any,
         yield from _leaves(entry, (*path, key))
 
 
-def step_numbers(steps: Sequence[StepSummary]) -> Numbers:
+def step_numbers(steps: Sequence[StepSummary], *, line: bool = False) -> Numbers:
     """Return the numbers of a run that have a stated error, by load step and name.
 
     steps  ends of all load steps
+    line   True for a line contact, with names and units per length
     """
     found: dict[str, dict[str, ExpectedNumber]] = {
         f"step {number}": {} for number in range(1, len(steps) + 1)
@@ -154,8 +156,8 @@ def step_numbers(steps: Sequence[StepSummary]) -> Numbers:
             stated, value = (step.errors or {}).get(stem), getattr(step, stem)
             if stated is not None and value is not None:
                 value = value[part] if axis else value
-                found[f"step {number}"][name] = _number(
-                    value, stated, axis or "x", unit, max(scale, least)
+                found[f"step {number}"][shown_name(name, line=line)] = _number(
+                    value, stated, axis or "x", shown_unit(unit, line=line), max(scale, least)
                 )
     return found
 

@@ -27,6 +27,7 @@ from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.line import SCALARS, StripCoefficients
 from semi_analytical.solve import solve_discretised
 from semi_analytical.stress.strips import RESPONSES, strip_responses
+from slipstick.expected import step_numbers
 from verification.closed_forms.line_contact import CylinderContact, PushedCylinder
 
 STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
@@ -353,6 +354,9 @@ def test_a_summary_has_the_names_of_line_contacts(solve: Any, tmp_path: Path) ->
     assert read.stick_radius == result.steps[-1].stick_radius
     assert read.errors is not None
     assert "stick_radius" in read.errors
+    expected = step_numbers([read], line=True)["step 1"]
+    assert (expected["stick_half_width"].unit, expected["normal_force"].unit) == ("m", "N/m")
+    assert not set(expected) & set(SHOWN_NAMES)
 
 
 def test_lines_of_elements_are_stored_on_both_sides() -> None:
