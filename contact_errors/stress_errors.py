@@ -281,14 +281,15 @@ def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[
     """Find the largest stresses near the surface (True) and below the depth `near` (False).
 
     The two places have different convergence orders. There is one value for each region of the body
-    and each stress measure. Points near the surface include the fitted contact edge.
+    and each stress measure, and none at a place without points, such as near the surface for chosen
+    depths below. Points near the surface include the fitted contact edge.
     """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
         points, edge = field.points.select(chosen), field.edge if at_edge else None
         if edge is not None and not points.x.size:
             points, edge = edge.points, None
-        each = extremes(replace(field, points=points, edge=edge))
+        each = extremes(replace(field, points=points, edge=edge)) if points.x.size else ()
         found[at_edge] = {(e.region, e.measure): e.value for e in each}
     return found
 

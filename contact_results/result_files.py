@@ -114,5 +114,5 @@ def write_computed(
         )
     warnings += omitted.warnings
     # The summary is last: it has the digest of the fields and the list of omitted parts.
-    write_summary(summary, directory, warnings)
+    write_summary(summary, directory, warnings, line=report.scene.indenter.is_line)
     return WrittenResult(report, summary, cycles, warnings)

@@ -137,7 +137,7 @@ def step_numbers(steps: Sequence[StepSummary], *, line: bool = False) -> Numbers
     """Return the numbers of a run that have a stated error, by load step and name.
 
     steps  ends of all load steps
-    line   True for a line contact
+    line   True for a line contact, with names and units per length
     """
     found: dict[str, dict[str, ExpectedNumber]] = {
         f"step {number}": {} for number in range(1, len(steps) + 1)

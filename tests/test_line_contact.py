@@ -1,5 +1,7 @@
 """Laws of line contacts: coefficients of strips, closed forms, loads per length, refusals."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -7,11 +9,16 @@ import pytest
 
 import fem_reference
 import slipstick
+from contact_errors.coarse_solves import stated_errors
+from contact_results.directory.file_names import SUMMARY
+from contact_results.result_files import write_result
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.stress_maxima import extremes
 from contact_results.surface import Rings, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene, SceneError, SurfaceDiscretisation
+from contact_scene.quantities.per_length import SHOWN_NAMES
+from contact_scene.quantities.summary import load_summary
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference import Method
 from semi_analytical.frf.depth import Level, material_at
@@ -20,6 +27,7 @@ from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.line import SCALARS, StripCoefficients
 from semi_analytical.solve import solve_discretised
 from semi_analytical.stress.strips import RESPONSES, strip_responses
+from slipstick.expected import step_numbers
 from verification.closed_forms.line_contact import CylinderContact, PushedCylinder
 
 STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
@@ -330,6 +338,25 @@ def test_elements_refuse_what_is_not_symmetric_about_the_line(name: str) -> None
 def test_unlike_bodies_are_pressed_without_friction() -> None:
     scene = Scene.model_validate(document(body={"material": OTHER}, friction=None))
     assert fem_reference.plan(scene).path is fem_reference.Path.PRESSING
+
+
+@pytest.mark.parametrize("solve", [solved, solved_on_elements])
+def test_a_summary_has_the_names_of_line_contacts(solve: Any, tmp_path: Path) -> None:
+    result = solve(*PRESS_AND_PUSH)
+    write_result(result, tmp_path, figures="none", errors=stated_errors(result))
+    text = (tmp_path / SUMMARY).read_text(encoding="utf-8")
+    for step, end in zip(json.loads(text)["steps"], result.steps, strict=True):
+        for names in (step, step["errors"]):
+            assert set(names) >= set(SHOWN_NAMES.values())
+            assert not set(names) & set(SHOWN_NAMES)
+        assert step["half_width"] == end.contact_radius
+    read = load_summary(text).steps[-1]
+    assert read.stick_radius == result.steps[-1].stick_radius
+    assert read.errors is not None
+    assert "stick_radius" in read.errors
+    expected = step_numbers([read], line=True)["step 1"]
+    assert (expected["stick_half_width"].unit, expected["normal_force"].unit) == ("m", "N/m")
+    assert not set(expected) & set(SHOWN_NAMES)
 
 
 def test_lines_of_elements_are_stored_on_both_sides() -> None:

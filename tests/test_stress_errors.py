@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from contact_scenes import (
     PRESS,
+    YOUNG,
     A,
     grid,
     hertz,
@@ -24,6 +25,7 @@ from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
+    Body,
     Cone,
     Layer,
     LoadStep,
@@ -113,6 +115,23 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     ):
         largest = exact if extreme.measure == "von_mises" else exact / 2
         assert abs(extreme.value - largest) <= size(error) <= 0.05 * largest
+
+
+def test_the_stress_at_depths_far_from_the_surface_is_covered() -> None:
+    """Below Hertz's contact, where no edge is fitted and no depth is near the surface.
+
+    The layer has an interface and hardly another modulus.
+    """
+    posed = scene(PRESS, indenter=paraboloid(steel(0.3)), body=steel(0.3))
+    layer = Layer(thickness=1.2 * A, material=steel(0.3, YOUNG * (1 + 1e-6)))
+    posed = posed.replace({"body": Body(material=steel(0.3), layers=(layer,))})
+    state = state_of_result(solve(posed, grid(32), 1e-8), 1)
+    field = OnCells(state).stress([A, 1.5 * A])
+    (found,) = (e for e in extremes(field) if (e.measure, e.region) == ("von_mises", "body"))
+    (error,) = stress_errors(state, field, [found], at_depths=True)
+    stress = axis_stress(np.array([A]), A, hertz().peak_pressure, 0.3)
+    exact = float(np.abs(stress.axial - stress.radial)[0])
+    assert abs(found.value - exact) <= size(error) <= 0.02 * exact
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3])

@@ -28,7 +28,9 @@ if TYPE_CHECKING:
     from contact_results.surface import Increment
 
 
-def write_summary(summary: RunSummary, directory: Path, warnings: tuple[str, ...]) -> None:
+def write_summary(
+    summary: RunSummary, directory: Path, warnings: tuple[str, ...], *, line: bool
+) -> None:
     """Write `summary.json`, which contains the SHA-256 of the file of fields in the directory.
 
     The file of fields must exist already. Equal results give equal bytes.
@@ -36,10 +38,11 @@ def write_summary(summary: RunSummary, directory: Path, warnings: tuple[str, ...
     summary    summary of the result
     directory  directory of the run
     warnings   warnings about the result, which replace those of the summary
+    line       True for a line contact
     """
     digest = fields_digest(directory / FIELDS)
     told = summary.model_copy(update={"fields_digest": digest, "warnings": warnings})
-    (directory / SUMMARY).write_text(dump_summary(told), encoding="utf-8")
+    (directory / SUMMARY).write_text(dump_summary(told, line=line), encoding="utf-8")
 
 
 def summary_of(report: ResultReport) -> RunSummary:

@@ -265,8 +265,6 @@ def _rename_steps(record: dict[str, Any], names: Mapping[str, str]) -> None:
     record  content of `summary.json`, changed in place
     names   new names by old names
     """
-    if not record.get("cells") or record["cells"][1] != 1:
-        return
     for number, step in enumerate(record["steps"]):
         renamed = rename_keys(step, names)
         if step.get("errors"):
@@ -274,13 +272,16 @@ def _rename_steps(record: dict[str, Any], names: Mapping[str, str]) -> None:
         record["steps"][number] = renamed
 
 
-def dump_summary(summary: RunSummary) -> str:
+def dump_summary(summary: RunSummary, *, line: bool = False) -> str:
     """Convert the summary of a run to JSON text, the content of `summary.json`.
 
     A key without a value is null. The steps of a line contact have the names of `per_length`.
+
+    line  True for a line contact
     """
     record = summary.model_dump(mode="json")
-    _rename_steps(record, SHOWN_NAMES)
+    if line:
+        _rename_steps(record, SHOWN_NAMES)
     return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

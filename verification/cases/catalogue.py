@@ -95,7 +95,7 @@ MODULES = {
         *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
     ),
     "worked_examples": ("worked_examples", "written_files"),
-    "partial_slip": ("cattaneo_mindlin", "near_sliding", "fem_harmonics"),
+    "partial_slip": ("cattaneo_mindlin", "near_sliding"),
     "fretting": (
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
         *("radial_tangential", "growing_loads"),

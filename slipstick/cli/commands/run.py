@@ -189,7 +189,7 @@ def run(
     if expectation is not None:
         from slipstick.expected import step_numbers
 
-        line = contents.indenter.is_line
+        line = contents.scene.indenter.is_line
         worse = expectation.settle(step_numbers(written.summary.steps, line=line))
     exit_unless_met(reached)
     causes = list(omitted.causes.values())
