@@ -260,11 +260,8 @@ class RunSummary(Description):
 
 
 def _rename_steps(record: dict[str, Any], names: Mapping[str, str]) -> None:
-    """Rename the scalars of the load steps in the record of a line contact, and their errors.
-
-    record  content of `summary.json`, changed in place
-    names   new names by old names
-    """
+    """Rename the scalars of the load steps in the record of a line contact, and their errors,
+    in place."""
     for number, step in enumerate(record["steps"]):
         renamed = rename_keys(step, names)
         if step.get("errors"):
