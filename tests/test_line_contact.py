@@ -306,6 +306,28 @@ def test_the_stress_below_elements_is_that_below_strips() -> None:
     assert elements["max_principal"] == pytest.approx(strips["max_principal"], rel=0.2)
 
 
+def test_a_bent_layer_has_its_tension_beyond_the_contact() -> None:
+    """On the surface and at the interface, two to three half widths from the middle."""
+    coat = {"thickness": HALF_WIDTH, "material": {"young_modulus": 400e9, "poisson_ratio": 0.3}}
+    body = {"material": STEEL, "layers": [coat]}
+    elements, strips = (
+        {
+            (one.region, one.measure): one
+            for one in extremes(body_response(state_of_result(result, 1)).stress())
+        }
+        for result in (
+            solved_on_elements({"normal_force": FORCE}, body=body, friction=None),
+            solved({"normal_force": FORCE}, cells=512, body=body, friction=None),
+        )
+    )
+    for region in ("surface", "base"):
+        one, other = (found[region, "max_principal"] for found in (elements, strips))
+        assert other.value == pytest.approx(one.value, rel=0.1)
+        assert abs(other.x) == pytest.approx(abs(one.x), rel=0.1)
+        assert abs(other.x) > 1.5 * HALF_WIDTH
+        assert not other.at_window_edge
+
+
 OTHER = {"young_modulus": 70e9, "poisson_ratio": 0.3}
 SLANTED = np.stack([x := np.linspace(-2e-3, 2e-3, 101), x**2 / (2 * RADIUS) + 1e-4 * x**3])
 REFUSED_ON_ELEMENTS: dict[str, tuple[dict[str, Any], str]] = {

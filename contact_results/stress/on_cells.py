@@ -5,7 +5,7 @@ The semi-analytical solver computes such tractions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 # the edge of the first window. Behind a contact with tangential load the largest interface stress
 # is about two radii from the centre.
 WIDE_MARGIN = 2.4
+# Doublings of the window of a line contact, at most: to 25 half widths, four bending lengths
+# h (E1/E2)^(1/3) of a layer of the contact's half width h and 250 times the base's stiffness.
+MAX_DOUBLINGS = 4
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
 # Largest number of cells along a side for the overview, whose stress then takes less than a second,
@@ -217,7 +220,9 @@ class OnCells(BodyResponse):
         from the edge. The contact edge is then fitted between the cells, and the result has
         additional points on the fitted edge. `how` of the result states the cause if no edge was
         fitted. If a maximum under tangential load lies at the edge of the window, its depth is
-        computed again below a wider window. Both sides of every interface are always included.
+        computed again below a wider window. Below a line contact, layers that bend have their
+        largest tension several half widths from the contact: the window is doubled until no largest
+        stress grows. Both sides of every interface are always included.
         """
         from semi_analytical.stress.field import MARGIN
 
@@ -228,6 +233,15 @@ class OnCells(BodyResponse):
         field = below(
             depths, MARGIN, volume=volume, see_edge=self.see_edge, section_only=self.section_only
         )
+        if len(self.state.axes["y"]) == 1 and not self.section_only:
+            with suppress(ResourceRefused):  # as below
+                for doubling in range(1, MAX_DOUBLINGS + 1):
+                    beyond = below(depths, 2**doubling * MARGIN, see_edge=False)
+                    wider = _with_points_beyond(field, beyond.points)
+                    if _largest(wider) == _largest(field):
+                        break
+                    field = wider
+            return field
         if self.section_only or not np.any(self.state.tractions.get("shear", 0.0)):
             return field
         far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
@@ -427,6 +441,18 @@ def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
         stress,
         at_edge=nothing > 0,
     )
+
+
+def _with_points_beyond(field: StressField, more: StressPoints) -> StressField:
+    """Replace the outermost points of a line contact by the points of a wider window beyond."""
+    distance = np.abs(field.points.x)
+    inside = field.points.select(distance < np.max(distance))
+    beyond = more.select(np.abs(more.x) > np.max(np.abs(inside.x)))
+    return replace(field, points=StressPoints.concatenate([inside, beyond]))
+
+
+def _largest(field: StressField) -> Mapping[tuple[str, str], float]:
+    return {(one.region, one.measure): one.value for one in extremes(field)}
 
 
 def _margin_cells(pressure: Field, axis: int, margin: float) -> int:
