@@ -27,6 +27,9 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.kernels import PARTS
+from semi_analytical.operator.domain import ReducedDomain
 from verification.closed_forms.hertz import PointContact
 from verification.problems.problem import (
     ShiftedGrid,
@@ -249,3 +252,19 @@ def test_gross_slip_under_a_shift_has_the_friction_limit_of_the_corrected_force(
     end = solved(scene(*loading), grid=COARSE).steps[-1]
     assert end.edge_change is not None
     assert np.hypot(*end.tangential_force) == pytest.approx(MU * end.normal_force, rel=1e-6)
+
+
+@pytest.mark.parametrize("mirrors", [(True, False), (False, True), (True, True)])
+def test_variations_within_cells_are_mirrored_with_their_cells(mirrors: tuple[bool, bool]) -> None:
+    def placed(one: Within) -> np.ndarray:
+        parts = np.zeros((*one.slopes.shape[1:], PARTS, PARTS))
+        parts[one.i, one.j] = one.rest
+        return parts
+
+    rest = np.arange(3.0 * PARTS**2).reshape(3, PARTS, PARTS)
+    half = Within(np.zeros((2, 4, 5)), np.array([0, 2, 3]), np.array([1, 0, 4]), rest)
+    domain, expected = ReducedDomain(mirrors), placed(half)
+    for axis in domain.planes:
+        image = np.flip(expected, (axis, axis + 2))
+        expected = np.concatenate([image, expected], axis=axis)
+    np.testing.assert_array_equal(placed(half.extend_to_window(domain)), expected)
