@@ -106,7 +106,8 @@ def _price_texts(levels: "Levels", last: "Fineness", seconds: float) -> tuple[st
     settings = levels.settings(last)
     cells, rings = settings.cells, settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""
-    fineness = fineness or f"{settings.elements_per_radius} per radius"
+    width = "half width" if levels.solver.scene.indenter.is_line else "radius"
+    fineness = fineness or f"{settings.elements_per_radius} per {width}"
     return (
         (f"{cells[0]} x {cells[1]}" if cells else fineness)
         + (", above the limit" if levels.beyond_limit(last) else ""),

@@ -414,4 +414,7 @@ def _parameter(solver: DiscretisedSolver, part: Part, space: Any) -> Any:
 
 def _parameter_text(solver: DiscretisedSolver, part: Part, space: Any) -> str:
     sizes = np.atleast_1d(_parameter(solver, part, space))
-    return KINDS[part].text.format(" x ".join(f"{size:.5g}" for size in sizes))
+    text = KINDS[part].text.format(" x ".join(f"{size:.5g}" for size in sizes))
+    if solver.scene.indenter.is_line:
+        text = text.replace("radii", "half widths").replace("radius", "half width")
+    return text
