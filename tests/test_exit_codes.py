@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from command import slipstick
+from scene_texts import STEEL_BALL_PRESSED
 from small_result import small_result
 
 from contact_scene.solver_errors import (
@@ -26,18 +27,9 @@ from contact_scene.solver_errors import (
 from fem_reference.mesh.gmsh_mesh import GmshMissing
 from semi_analytical.discretised import CellSolver
 
-SCENE = """
+SCENE = f"""
 title = "Ball on a flat"
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
-[[loading]]
-normal_force = "1 kN"
+{STEEL_BALL_PRESSED}
 [[loading]]
 tangential_force = ["90 N", 0]
 increments = 3

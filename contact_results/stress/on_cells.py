@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 # the edge of the first window. Behind a contact with tangential load the largest interface stress
 # is about two radii from the centre.
 WIDE_MARGIN = 2.4
-# Doublings of the window of a line contact, at most: to 25 half widths, four bending lengths
-# h (E1/E2)^(1/3) of a layer of the contact's half width h and 250 times the base's stiffness.
+# Doublings of the window of a line contact, at most: to 25 half widths a. A layer bends over the
+# length h (E1/E2)^(1/3); 25 a are four lengths of a layer with h = a and E1/E2 = 250.
 MAX_DOUBLINGS = 4
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
