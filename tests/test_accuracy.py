@@ -1,6 +1,5 @@
 """Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
-import json
 import re
 import signal
 import tracemalloc
@@ -58,7 +57,6 @@ from contact_scene import (
     Layer,
     RadialDiscretisation,
     Scene,
-    SceneError,
     SurfaceDiscretisation,
 )
 from contact_scene.contact_features import Features
@@ -68,7 +66,6 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
-from contact_scene.quantities.summary import load_summary
 from contact_scene.reading.scene_file import (
     read_accuracy,
     read_scene_file,
@@ -365,10 +362,6 @@ def written(tmp_path: Path, more: str = "") -> Path:
     return path
 
 
-def summary(out: Path):
-    return load_summary((out / "summary.json").read_text(encoding="utf-8"))
-
-
 def test_python_solves_as_accurately_as_the_file_asks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -420,32 +413,3 @@ def test_a_plan_prints_the_memory_of_the_libraries_at_least(
     memory = re.findall(r"about (\d+) MiB", capsys.readouterr().out)
     assert memory
     assert min(map(int, memory)) >= LIBRARIES // 2**20
-
-
-@pytest.mark.parametrize(
-    ("shape", "force", "own", "other"),
-    [
-        ("cylinder", "1 kN/mm", "half_width", "contact_radius"),
-        ("paraboloid", "1 kN", "contact_radius", "half_width"),
-    ],
-)
-def test_widths_have_the_names_of_the_results(
-    tmp_path: Path, shape: str, force: str, own: str, other: str
-) -> None:
-    """In the table, in options, and in the summary; the other name is refused with this one."""
-    path = tmp_path / "scene.toml"
-    path.write_text(SCENE.replace("paraboloid", shape).replace("1 kN", force), encoding="utf-8")
-    contents = read_scene_file(path, [f"accuracy.{own}=1%"])
-    assert contents.accuracy is not None
-    assert contents.accuracy.shares() == {"contact_radius": 0.01}
-    with pytest.raises(SceneError, match=f"expected {own}"):
-        read_scene_file(path, [f"accuracy.{other}=1%"])
-    with pytest.raises(SceneError, match=f"--accuracy.*expected {own}"):
-        read_accuracy(f"{other} 1%", "--accuracy", contents.indenter)
-    out, saved = tmp_path / "out", tmp_path / "saved.json"
-    options = ("--accuracy", f"{own} 1%", "--save-expected", saved, "--figures", "none")
-    assert slipstick("run", path, "-o", out, *options) == 0
-    assert summary(out).accuracy.asked == {own: 0.01}
-    numbers = json.loads(saved.read_text("utf-8"))["numbers"]["step 1"]
-    assert {own, other} & numbers.keys() == {own}
-    assert numbers["normal_force"]["unit"] == ("N/m" if shape == "cylinder" else "N")

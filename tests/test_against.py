@@ -72,11 +72,6 @@ def against(place: Path, measured: Path, *arguments, run: str = "run") -> dict[s
     return {cells[0].split(" (")[0]: cells[1:] for cells in lines if len(cells) == 6}
 
 
-def value(text: str) -> float:
-    """Number of a cell without its error."""
-    return float(text.partition("±")[0])
-
-
 def compared(place: Path, output: str) -> dict[str, Any]:
     """Record of a comparison that was written to `output`."""
     record: dict[str, Any] = json.loads((place / output / "against.json").read_text("utf-8"))
@@ -87,13 +82,6 @@ def against_scene(place: Path, measured: Path, scene: str, *options: object) -> 
     """Record of a comparison with a scene, which is solved for it."""
     succeeded("against", measured, scene, *options, "-o", "compared", cwd=place)
     return compared(place, "compared")
-
-
-def refusal(place: Path, *words: object) -> str:
-    """Message of a comparison that ends with code 2, without its frame."""
-    ended = outcome("against", *words, cwd=place)
-    assert ended.returncode == 2
-    return " ".join(ended.stderr.replace("│", " ").split())
 
 
 def loop(place: Path, run: str = "run") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -153,28 +141,6 @@ def test_the_gap_to_a_measured_force_is_a_mean_over_one_cycle(place: Path) -> No
     gap = 0.1 * np.sqrt(both_ways / (len(force) + 1))
     found = against(place, smaller)["force along the loop"]
     assert float(found[3]) == pytest.approx(gap, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("columns", "message"),
-    [
-        ({"T [N]": [1], "time [s]": [1]}, "got the columns tangential_force, expected shift or"),
-        (
-            {"T [N]": [9, -2, -9, 2, 9, -2, -9], "shift [um]": [3, 0, -3, 0, 3, 0, -3]},
-            "one or more whole cycles",
-        ),
-        (
-            {"step": [1, 1], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]},
-            "no row of load step 4: its column 'step' has 1; choose the load step with --step",
-        ),
-        (
-            {"step": [0, 1], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]},
-            "the column 'step' has 0 to 1, expected load steps of the run, 1 to 4",
-        ),
-    ],
-)
-def test_a_table_that_cannot_be_compared_is_refused(place: Path, columns, message) -> None:
-    assert message in refusal(place, table(place / "bad.csv", **columns), "run")
 
 
 LINE = """
@@ -287,107 +253,10 @@ def test_inputs_of_a_line_contact_are_fitted_and_uncertain(line_place: Path) -> 
     assert slope["uncertainty"] == pytest.approx(np.hypot(by_length, slope["error"]), rel=1e-2)
 
 
-@pytest.mark.parametrize(
-    ("unit", "scene", "message"),
-    [
-        ("N", "line.toml", "divide T by the length of the contact, and name its unit, such as"),
-        ("N/mm", "lost.toml", "add indenter.reference_length"),
-        ("Pa", "line.toml", "the units are N, uN"),
-    ],
-)
-def test_a_loop_that_is_no_line_loop_is_refused(line_place, unit, scene, message) -> None:
-    assert message in refusal(line_place, line_loop(line_place, unit), scene)
-
-
-def test_a_force_per_length_on_a_ball_is_refused(place: Path) -> None:
-    _, shift, force = loop(place)
-    per_length = table(place / "per.csv", **{"shift [m]": shift, "T [N/m]": force})
-    assert "the contact is no line contact; give T in N" in refusal(place, per_length, "run")
-
-
-def test_a_profile_with_several_load_steps_is_compared_step_by_step(place: Path) -> None:
-    """The profiles of a run agree with those of the run at each of its load steps."""
-    profiles = place / "run/profiles.csv"
-    for step in (["--step", "1"], ["--step", "3"], []):
-        found = against(place, profiles, *step)
-        assert float(found["pressure at the places"][3]) == 0.0
-        assert float(found["shear at the places"][3]) == 0.0
-
-
-def test_a_column_of_times_or_words_has_no_load_steps(place: Path) -> None:
-    actuator, _, force = loop(place)
-    for head, values in (("step [s]", range(len(force))), ("step", ["a"] * len(force))):
-        columns = {head: values, "actuator_shift [m]": actuator, "T [N]": force}
-        assert against(place, table(place / "timed.csv", **columns))
-    words = {"step": ["a", "b"], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]}
-    assert against(place, table(place / "words.csv", **words))
-
-
-def as_lab(place: Path, heads: str) -> Path:
-    """The loop of the run as a laboratory writes it: time, shift in µm and force, 3 % too small."""
-    moved, _, force = loop(place)
-    path = place / "lab.txt"
-    rows = np.stack([np.arange(len(force)), 1e6 * moved, 0.97 * force], axis=1)
-    lines = [heads, *(";".join(map(str, row)) for row in rows.tolist())]
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
-
-
-CHOSEN = ("--columns", "actuator_shift = 2 um, T=3 N")
-
-
-@pytest.mark.parametrize("heads", ["Time;Disp;Load", "Time;Disp (mm);Load [kN]", ""])
-def test_columns_are_chosen_by_number_whatever_their_heads(place: Path, heads: str) -> None:
-    moved, _, force = loop(place)
-    named = {"actuator_shift [m]": moved, "T [N]": 0.97 * force}
-    by_heads = against(place, table(place / "named.csv", **named))
-    assert against(place, as_lab(place, heads), *CHOSEN) == by_heads
-
-
-def test_a_column_without_a_unit_has_that_of_its_head(place: Path) -> None:
-    lab = as_lab(place, "Time;Disp (um);Load [N]")
-    assert against(place, lab, "--columns", "δ*=2,T=3") == against(place, lab, *CHOSEN)
-
-
-@pytest.mark.parametrize(
-    ("option", "text", "told"),
-    [
-        ("--columns", "shift=2", "unit of its numbers"),
-        ("--columns", "shift=4 um,T=3 N", "expected 1 to 3"),
-        ("--columns", "shift=0 um,T=3 N", "got column 0, expected 1 to 3"),
-        ("--columns", "foo=2 um", "known names"),
-        ("--columns", "shift=2 um, delta=3 um", "different names"),
-        ("--require", "5", "at most 50 %"),
-        ("--require", "approach 1%", "energy_per_cycle"),
-    ],
-)
-def test_wrong_columns_and_requirements_are_refused(place, option, text, told) -> None:
-    chosen = () if option == "--columns" else CHOSEN
-    assert told in refusal(place, as_lab(place, "t;s;F"), "run", *chosen, option, text)
-
-
-def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> None:
-    lab = as_lab(place, "t;s;F")
-    for required, code in (("2%", 1), ("4%", 0), ("slope 2%, energy_per_cycle 9%", 1)):
-        command = ("against", lab, "run", *CHOSEN, "--require", required, "-o", "compared")
-        assert outcome(*command, cwd=place).returncode == code
-    assert compared(place, "compared")["numbers"]["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
-    assert (place / "compared/against.png").read_bytes().startswith(b"\x89PNG")
-    succeeded("against", lab.absolute(), ".", *CHOSEN, "-o", "../in", cwd=place / "run")
-    assert compared(place, "in")["title"] == f"{lab.name} and run"
-
-
-def test_an_output_below_a_file_is_refused_before_the_scene_is_solved(place: Path) -> None:
-    measured = table(place / "loop.csv", **{"shift [um]": [1.0], "T [N]": [1.0]})
-    told = refusal(place, measured, "scene.toml", "-o", "loop.csv/below")
-    assert "loop.csv is a file; --output needs a directory" in told
-
-
 # ---- Validation uncertainty and identification of inputs.
 
 PRESSED = SCENE.partition("[[loading]]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
 PRESSED_ON_RINGS = ("pressed.toml", "--solver", "radial")
-MODULUS = "material.young_modulus=420 GPa"
 
 
 def hertz_pressure(force: float, x: np.ndarray) -> np.ndarray:
@@ -459,23 +328,3 @@ def test_a_difference_has_its_validation_uncertainty(place: Path) -> None:
     assert one["gap"] <= one["uncertainty"]
     curve = record["numbers"]["pressure_at_the_places"]
     assert 0.3 < (curve["uncertainty"] / one["uncertainty"]) <= 1.1
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--fit", "friction.coefficient=-1"), "expected key=first value above 0"),
-        (("--fit", "friction.coefficient=.1"), "do not depend on friction.coefficient"),
-        (
-            ("--fit", f"body.{MODULUS}, indenter.{MODULUS}"),
-            "change the curves in the same way",
-        ),
-        (
-            ("--fit", "friction.coefficient=.1", "--inputs", "friction.coefficient=.1±.1"),
-            "got --inputs and --fit",
-        ),
-    ],
-)
-def test_a_fit_without_answer_is_refused(place: Path, options, message) -> None:
-    profile, _ = measured_profile(place)
-    assert message in refusal(place, profile, *PRESSED_ON_RINGS, *options)

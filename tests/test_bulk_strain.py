@@ -10,9 +10,8 @@ import radial
 import semi_analytical
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_scene import FiniteElementDiscretisation, RadialDiscretisation, Scene, SceneError
+from contact_scene import FiniteElementDiscretisation, RadialDiscretisation, Scene
 from contact_scene.bulk_strain import strain_under, stress_by
-from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import plan
@@ -123,20 +122,3 @@ def test_the_stress_below_has_that_of_the_strain_layer_by_layer(solve):
             near = 1e-6 * expected[0]
             assert np.ptp(added[:, inside], axis=1) == pytest.approx(0, abs=near)
             assert np.mean(added[:, inside], axis=1) == pytest.approx(expected, abs=near)
-
-
-def test_strains_that_a_solver_cannot_have_are_refused_by_name():
-    from fem_reference.plan import plan as plan_of_elements
-    from radial.plan import plan as plan_of_rings
-
-    uniaxial = scene(PRESS, {"bulk_strain": (STRAIN, 0, 0)})
-    pushed = scene(PRESS, {**equibiaxial(STRAIN), "tangential_force": ("20 N", 0)})
-    for decide in (plan_of_elements, plan_of_rings):
-        with pytest.raises(UnsupportedScene, match=r"bulk strain \(0.0003, 0, 0\) is not equibi"):
-            decide(uniaxial)
-        with pytest.raises(UnsupportedScene, match="a bulk strain and a tangential load"):
-            decide(pushed)
-    with pytest.raises(SceneError, match="the substrate of the lower body is rigid"):
-        scene(PRESS, {"bulk_stress": ("1 MPa", 0, 0)}, body={"material": "rigid"})
-    with pytest.raises(ValueError, match="got both bulk_stress and bulk_strain"):
-        scene(PRESS, {"bulk_stress": ("1 MPa", 0, 0), "bulk_strain": (0, 0, 0)})

@@ -23,18 +23,12 @@ from semi_analytical import (
     NotConverged,
     ResourceRefused,
     SurfaceGrid,
-    UnsupportedScene,
     solve,
     solve_discretised,
 )
 from semi_analytical.increments import stick_slip
 
 LOOSE = 1e-8
-
-
-def test_contact_at_the_edge_of_the_window_is_refused():
-    with pytest.raises(ContactAtWindowEdge, match=r"step 1.*larger window"):
-        solve(scene(PRESS), grid(contacts=0.9), LOOSE)
 
 
 def test_contact_that_grows_to_the_edge_names_the_step_and_keeps_the_state_before():
@@ -51,12 +45,6 @@ def test_contact_between_the_cell_centres_is_refused(cells):
     touched = r"1 of them carry" if cells % 2 else r"no cell .* contact"  # a centre is at the tip
     with pytest.raises(ContactNotResolved, match=touched):
         solve_discretised(scene(tiny, friction=None), asked)
-
-
-def test_a_friction_map_that_ends_within_the_window_is_refused():
-    friction = {"map": np.full((8, 9), 0.1), "spacing": (2.9 * A / 8, 4 * A / 9)}
-    with pytest.raises(UnsupportedScene, match=r"friction.*\|x\|.*at most"):
-        solve(scene(PRESS, push(0.5), friction=friction), grid(), LOOSE)
 
 
 class Unseen(Paraboloid):

@@ -18,11 +18,8 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
-    SurfaceDiscretisation,
 )
 from contact_scene.normal_form import normal_form
-from contact_scene.reading.scene_text import describe
-from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.frf.depth import Descent, Level
 from semi_analytical.frf.surface import half_space_scalars, scalars
 from verification.closed_forms.bonded_film import BondedFilm
@@ -81,11 +78,6 @@ def test_stiffnesses_have_units_and_stiff_bonds_are_no_contrast() -> None:
     assert ends[0].approach == pytest.approx(ends[1].approach, rel=1e-9)
 
 
-def test_elements_refuse_a_compliant_bond() -> None:
-    with pytest.raises(UnsupportedScene, match=r"layers\[1\].interface_stiffness"):
-        slipstick.plan(scene(bonded()), "fem")
-
-
 def depth_system(G, nu, alpha):
     """Matrix of d/dz (U, W, tau_s, tau_z) in a layer."""
     ratio, modulus = nu / (1 - nu), 2 * G / (1 - nu)
@@ -142,20 +134,3 @@ def test_displacements_jump_at_bonds_in_proportion_to_the_traction(stack, x):
             film.tangential_jump * above.transverse_traction,
             atol=1e-9 * np.max(above.transverse_displacement),
         )
-
-
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        ("4 GPa/um", "4 GPa/µm"),
-        ("0.1 GPa/um", "100 MPa/µm"),
-        ("1e20 Pa/m", "100 GPa/nm"),
-        ("20 N/mm^3", "20 MPa/mm"),
-        ("5e4 Pa/m", "50 kPa/m"),
-    ],
-)
-def test_a_stiffness_is_described_in_a_unit_that_a_reader_can_use(text: str, shown: str) -> None:
-    bond = InterfaceStiffness.model_validate({"normal": text})
-    layer = Layer(thickness=1e-4, material=HARD, interface_stiffness=bond)
-    lines = dict(describe(scene(layer), SurfaceDiscretisation()))
-    assert f"interface stiffness (normal {shown})" in lines["body"]

@@ -219,27 +219,6 @@ def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
     np.testing.assert_allclose(carried, end.tangential_force, atol=1e-6 * LIMIT)
 
 
-def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so():
-    of, grid = frictionless(PRESS), SurfaceGrid((16, 16), (10 * A, 10 * A))
-    plain, asked = (solved(of, edge, grid) for edge in ("off", "last"))
-    np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
-    assert asked.steps[-1].edge_change is None
-    told = "the edge of the contact is not corrected: the contact is too thin"
-    assert any(told in remark for remark in warnings_of(asked))
-
-
-def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
-    """Heights at random from cell to cell leave no edge to fit."""
-    grid = SurfaceGrid((CELLS, CELLS), (WINDOW, WINDOW))
-    x, y = grid.coordinates()
-    heights = (x**2 + y**2) / (2 * RADIUS)
-    heights += 0.003 * APPROACH * np.random.default_rng(1).uniform(size=grid.cells)
-    rough = HeightMap(file=heights, spacing=WINDOW / CELLS, material=steel())
-    result = solved(frictionless(PRESS, indenter=rough), "last", grid)
-    assert result.steps[-1].edge_change is None
-    assert any("edge is rough" in told for told in warnings_of(result))
-
-
 @pytest.mark.parametrize("far", [(9.0, 0.0), (6.0, -6.0)])
 def test_gross_slip_under_a_shift_has_the_friction_limit_of_the_corrected_force(far):
     """On 16 cells the normal forces before and after the correction differ by 0.2 %.

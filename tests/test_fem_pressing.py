@@ -29,7 +29,6 @@ from contact_scene import (
 from contact_scene.solver_errors import (
     ContactNotResolved,
     SurfacesOverlap,
-    UnsupportedScene,
 )
 from fem_reference import ContactAtZoneEdge, Increment, Method, Path, Result, plan, solve
 from fem_reference.expected_radius import expected_radius
@@ -190,26 +189,3 @@ def test_steps_are_cut_where_the_path_matters(loading, counts) -> None:
 def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
     pushed = scene(PRESS, push(0.9), push(0.7), indenter=RIGID_BALL)
     assert plan(pushed).increments == (20, 18, 4)
-
-
-@pytest.mark.parametrize(
-    ("asked", "named"),
-    [
-        pytest.param(scene(PRESS, {"moment": (0.0, 1e-3)}), "moment", id="moment"),
-        pytest.param(
-            scene(PRESS, {"moment": (0.0, 0.0)}, push(0.3), indenter=RIGID_BALL),
-            "tilt",
-            id="free to tilt",
-        ),
-        pytest.param(
-            scene(PRESS, body=steel(young_modulus=1e3)).model_copy(
-                update={"body": Body(material=steel(young_modulus=1e3), layers=(FILM,))}
-            ),
-            "shear moduli",
-            id="contrast",
-        ),
-    ],
-)
-def test_what_is_not_axisymmetric_is_refused_by_name(asked: Scene, named: str) -> None:
-    with pytest.raises(UnsupportedScene, match=named):
-        plan(asked)

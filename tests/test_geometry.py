@@ -13,7 +13,6 @@ from fem_scenes import elements
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
-from pydantic import ValidationError
 from strategies import SHAPED
 
 import contact_scene
@@ -152,21 +151,6 @@ def test_a_profile_is_read_in_any_order_unit_and_sign(tmp_path: Path) -> None:
     ):
         r = np.linspace(0, 5e-6, 11)
         np.testing.assert_allclose(shape.initial_gap(r, 0), whole.initial_gap(r, 0), atol=1e-22)
-
-
-@pytest.mark.parametrize(
-    ("table", "words"),
-    [
-        ([[0, 0], [1, 1], [2, 4]], "at least 4"),
-        ([[-1, 1], [0, 0], [1, 1], [2, 4]], "keep one half"),
-        ([[0, 0], [1, 1], [1, 2], [2, 4]], "ascending"),
-        ([[0, 4], [1, 3], [2, 1], [3, 0]], "set flip = true"),
-        ([[0, 0], [1, np.inf], [2, 4], [3, 9]], "finite"),
-    ],
-)
-def test_what_is_no_profile_is_refused(table: Any, words: str) -> None:
-    with pytest.raises(ValidationError, match=words):
-        RevolvedProfile(material=RIGID, file=np.array(table, dtype=float))  # type: ignore[arg-type]
 
 
 SOLVERS = "semi-analytical", "radial", "fem", "fem-complementarity"
