@@ -46,11 +46,10 @@ def paraboloid(material=None):
 
 
 def scene(*loading, friction=MU, indenter=None, body=None) -> Scene:
-    """Loading steps as keyword tables; `friction` None: frictionless."""
-    indenter = indenter or paraboloid()
+    """Loading steps as keyword tables; `friction` None: frictionless; a body or its material."""
     return Scene(
-        indenter=indenter,
-        body=Body(material=body or steel()),
+        indenter=indenter or paraboloid(),
+        body=body if isinstance(body, Body) else Body(material=body or steel()),
         friction=None if friction is None else CoulombFriction(coefficient=friction),
         loading=[LoadStep(**step) for step in loading],
     )

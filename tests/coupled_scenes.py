@@ -1,14 +1,13 @@
 """Scenes in which pressure and shear are coupled: a rigid ball on soft or coated bodies."""
 
+import contact_scenes
 from contact_scenes import LOAD, MU, RADIUS, A
 
 from contact_scene import (
     RIGID,
     Body,
-    CoulombFriction,
     IsotropicMaterial,
     Layer,
-    LoadStep,
     Paraboloid,
     Scene,
 )
@@ -34,11 +33,8 @@ def coated(ratio=2.0, thickness=1.0, poisson_ratio=0.3) -> Body:
 
 def scene(*loading, body=None, indenter=BALL, friction=MU) -> Scene:
     """Loading steps as keyword tables; without friction if that is None."""
-    return Scene(
-        indenter=indenter,
-        body=coated() if body is None else body,
-        friction=None if friction is None else CoulombFriction(coefficient=friction),
-        loading=[LoadStep(**step) for step in loading],
+    return contact_scenes.scene(
+        *loading, body=body or coated(), indenter=indenter, friction=friction
     )
 
 

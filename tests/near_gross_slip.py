@@ -1,11 +1,7 @@
-"""Increments drawn near gross slip, T/µW from .99 to .9999, of alike, unlike and coated bodies.
-
-python tests/near_gross_slip.py [--count INCREMENTS] [--seed SEED]    prints the failures
-"""
+"""Increments drawn near gross slip, T/µW from .99 to .9999, of alike, unlike and coated bodies."""
 
 from __future__ import annotations
 
-import argparse
 from typing import Any
 
 import numpy as np
@@ -48,8 +44,7 @@ def draw_scene(rng: np.random.Generator) -> Scene:
         steps.append({"tangential_force": force, "increments": int(rng.integers(1, 4))})
         if rng.random() < 0.3:
             steps.append({"normal_force": LOAD * float(rng.uniform(1, 1.01)), "increments": 1})
-    drawn = scene(*steps, friction=friction, indenter=paraboloid(indenter))
-    return drawn.model_copy(update={"body": body})
+    return scene(*steps, friction=friction, indenter=paraboloid(indenter), body=body)
 
 
 def failures(count: int, seed: int, solver: str) -> tuple[list[str], int]:
@@ -68,13 +63,3 @@ def failures(count: int, seed: int, solver: str) -> tuple[list[str], int]:
         except SolverError as error:
             found.append(f"{solver}: {type(error).__name__}: {error}\n{drawn!r}")
     return found, solved
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000, help="increments of each solver")
-    parser.add_argument("--seed", type=int, default=0)
-    asked = parser.parse_args()
-    for name in COARSE:
-        failed, number = failures(asked.count, asked.seed, name)
-        print(*failed, f"{name}: {number} increments, {len(failed)} failures", sep="\n")

@@ -2,23 +2,15 @@
 
 from functools import cache
 
-from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
+from contact_scenes import PRESS, push, scene
+
 from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from semi_analytical import solve
 from semi_analytical.fields import Result
 from semi_analytical.grid import SurfaceGrid
 
-STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
-SCENE = Scene(
-    title="small",
-    indenter=Paraboloid(radius=18e-3, material=STEEL),
-    body=Body(material=STEEL),
-    friction=CoulombFriction(coefficient=0.1),
-    loading=(
-        LoadStep(normal_force=1000.0),
-        LoadStep(tangential_force=(90.0, 0.0), increments=3),
-        LoadStep(tangential_force=(-90.0, 0.0), increments=2),
-    ),
+SCENE = scene(PRESS, push(0.9, increments=3), push(-0.9, increments=2)).model_copy(
+    update={"title": "small"}
 )
 
 

@@ -73,26 +73,18 @@ class Loop:
         import hashlib
 
         import numpy as np
+        from contact_scenes import LIMIT, PRESS, push, scene
 
         import slipstick
 
-        steel = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-        scene = slipstick.Scene(
-            indenter=slipstick.Paraboloid(radius=18e-3, material=steel),
-            body=slipstick.Body(material=steel),
-            friction=slipstick.CoulombFriction(coefficient=0.1),
-            loading=(
-                slipstick.LoadStep(normal_force=1e3),
-                slipstick.LoadStep(tangential_force=(self.push, 0.0), increments=2),
-                slipstick.LoadStep(tangential_force=(-self.push, 0.0), increments=2),
-            ),
-        )
+        part = self.push / LIMIT
+        steps = PRESS, push(part, increments=2), push(-part, increments=2)
         fineness = (
             slipstick.SurfaceDiscretisation(cells=(20, 20))
             if self.solver == "semi-analytical"
             else slipstick.FiniteElementDiscretisation(elements_per_radius=4)
         )
-        result = slipstick.solve(scene, self.solver, fineness)  # type: ignore[call-overload]
+        result = slipstick.solve(scene(*steps), self.solver, fineness)  # type: ignore[call-overload]
         digest = hashlib.sha256()
         for increment in result.increments:
             for name, field in sorted(vars(increment).items()):

@@ -4,13 +4,13 @@ import hashlib
 import os
 import pickle
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, replace
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 from signal import SIGINT, default_int_handler
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -178,20 +178,12 @@ class Ending:
             raise Killed
 
 
-def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
-    """Where two values differ by a bit."""
-    if isinstance(one, np.ndarray):
-        if (one.dtype, one.shape, one.tobytes()) != (other.dtype, other.shape, other.tobytes()):
-            yield where
-    elif is_dataclass(one):
-        for member in fields(one):
-            name = member.name
-            yield from differences(getattr(one, name), getattr(other, name), f"{where}.{name}")
-    elif isinstance(one, tuple | list):
-        for number, pair in enumerate(zip(one, other, strict=True)):
-            yield from differences(*pair, f"{where}[{number}]")
-    elif repr(one) != repr(other):
-        yield where
+def bits(value: Any) -> bytes:
+    """All bits of a value, however often it has an object."""
+    pickler = pickle.Pickler(content := BytesIO())
+    pickler.fast = True
+    pickler.dump(value)
+    return content.getvalue()
 
 
 def checkpoint(
@@ -218,9 +210,9 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
         resumed = All(read_checkpoint_file(path, "this solve"))
         with pytest.raises(Killed):
             solve(Ending(resumed, 1))
-        assert [*differences([following], resumed.kept)] == []
+        assert bits([following]) == bits(resumed.kept)
     resumed = All(every.kept[0])
-    assert [*differences(whole.increments, solve(resumed).increments)] == []
+    assert bits(whole.increments) == bits(solve(resumed).increments)
     assert len(resumed.kept) == len(whole.increments) - 1
 
 
@@ -246,10 +238,10 @@ def test_writer_keeps_none_of_the_arrays_that_it_has_written(tmp_path: Path) -> 
     assert peaks[1] < 1.1 * peaks[0] < 3 * size
 
 
-def packed(value: Any) -> bytes:
-    with TemporaryDirectory() as folder:
-        write_checkpoint_file(value, "this solve", Path(folder) / "part")
-        return (Path(folder) / "part").read_bytes()
+def forged(content: bytes) -> bytes:
+    """A checkpoint of this solve with this pickle."""
+    own = hashlib.sha256(content).hexdigest().encode()
+    return b"\n".join([FORMAT, b"this solve", own, content])
 
 
 @pytest.mark.parametrize(
@@ -260,7 +252,7 @@ def packed(value: Any) -> bytes:
         (lambda content: b"", "is not a checkpoint of this version"),
         (lambda content: b"PK" + content, "is not a checkpoint of this version"),
         (lambda content: content.replace(b"this solve", b"that solve", 1), "is of another scene"),
-        (lambda content: packed(np.ones(3)), "contains no checkpoint"),
+        (lambda content: forged(pickle.dumps(1.0)), "contains no checkpoint"),
     ],
 )
 @pytest.mark.parametrize("number", [0, 2])
@@ -277,14 +269,7 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     assert (last.point.done if last else 0) == number
     assert str(path) in said[0]
     assert problem in said[0]
-    assert [*differences(whole.increments, solve(store).increments)] == []
-
-
-def forged(content: bytes, tmp_path: Path) -> Path:
-    """A checkpoint of this solve with this pickle."""
-    own = hashlib.sha256(content).hexdigest().encode()
-    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
-    return tmp_path / "part"
+    assert bits(whole.increments) == bits(solve(store).increments)
 
 
 @dataclass
@@ -299,9 +284,10 @@ class Trap:
 
 @pytest.mark.parametrize("protocol", [0, 2, 5])
 def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
-    content = pickle.dumps(Trap(str(tmp_path / "made")), protocol)
+    path = tmp_path / "part"
+    path.write_bytes(forged(pickle.dumps(Trap(str(tmp_path / "made")), protocol)))
     with pytest.raises(Unusable, match="may not contain"):
-        read_checkpoint_file(forged(content, tmp_path), "this solve")
+        read_checkpoint_file(path, "this solve")
     assert not (tmp_path / "made").exists()
 
 
@@ -354,7 +340,6 @@ def test_files_are_the_same_to_the_byte(
     results.append(SOLVES[name](None))
     assert not in_file(results[0].increments[-1])
     assert {"pressure", "gap", "in_stick"} <= {*in_file(results[1].increments[-1])}
-    assert [*differences(results[0].increments, results[1].increments)] == []
     written = []
     for number, result in enumerate(results):
         directory = tmp_path / str(number)

@@ -19,7 +19,7 @@ from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     paraboloid_under,
 )
-from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
+from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import (
     EllipticalContact,
     PointContact,
@@ -74,12 +74,6 @@ def test_integrals_of_the_profile_give_load_approach_and_pressure(name, a):
             lambda u, r=r: rate(np.hypot(r, u)) / np.hypot(r, u), 0, np.sqrt(a**2 - r**2)
         )
         assert E_STAR / np.pi * pressure == pytest.approx(float(closed.pressure(r)), rel=1e-9)
-
-
-def test_a_flat_punch_has_its_load_and_stiffness():
-    punch = FlatPunchContact.under_load(0.8, 0.9, E_STAR)
-    assert disc_integral(punch.pressure, 0.9) == pytest.approx(0.8, rel=1e-6)
-    assert punch.approach == pytest.approx(0.8 / (2 * E_STAR * 0.9))
 
 
 # ---- Elliptical contact

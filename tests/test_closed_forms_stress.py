@@ -10,7 +10,6 @@ from scipy.integrate import quad
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.huber_stress import (
     hamilton_stress,
-    huber_stress,
     sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
@@ -22,18 +21,6 @@ from verification.closed_forms.torsion import (
     TorsionalSurface,
     one_layer,
 )
-
-
-@pytest.mark.parametrize("depth", [0.003, 0.1, 0.5, 2.0])
-def test_hamiltons_stress_is_hubers_without_shear(depth: float) -> None:
-    r, turn = np.array([1e-9, 0.3, 0.9, 1.0, 1.05, 2.0]), 0.7
-    c, s = np.cos(turn), np.sin(turn)
-    xx, yy, zz, yz, xz, xy = hamilton_stress(r * c, r * s, depth, 1.0, 1.0, 0.0, 0.3)
-    exact = huber_stress(r, depth, 1.0, 1.0, 0.3)
-    np.testing.assert_allclose(xx * c * c + yy * s * s + 2 * xy * c * s, exact.radial, atol=1e-9)
-    np.testing.assert_allclose(xx * s * s + yy * c * c - 2 * xy * c * s, exact.hoop, atol=1e-9)
-    np.testing.assert_allclose(zz, exact.axial, atol=1e-9)
-    np.testing.assert_allclose(xz * c + yz * s, exact.shear, atol=1e-9)
 
 
 def test_hamiltons_stress_is_that_of_sliding_on_the_axis_and_at_the_surface() -> None:

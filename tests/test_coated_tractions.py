@@ -53,13 +53,6 @@ def test_a_difference_beyond_the_errors_fails(off: float, status: Status) -> Non
     assert len(concluded.rows) == 8
 
 
-def test_the_legend_names_the_forces_and_the_second_solver_once() -> None:
-    for chart in conclude(SETTINGS, planted(0.0)).charts:
-        (_, second), *_ = chart.rows
-        names = [curve.label for curve in second.curves if curve.label]
-        assert names == ["radial solver", "T = 0", "T = 0.3 µW", "T = 0.6 µW", "T = 0.9 µW"]
-
-
 def test_a_missing_contact_leaves_the_verdicts_open() -> None:
     records = planted(0.0)
     lost = {name: one for name, one in records.items() if f"{CELLS}-4-" not in name}

@@ -123,20 +123,3 @@ def test_a_stalled_linear_solve_leaves_the_result(monkeypatch) -> None:
         end = ends("semi-analytical", PRESS, push(0.5), body=body)[-1]
         assert end.tangential_stiffness is None
         assert end.tangential_force is not None
-
-
-@pytest.mark.parametrize(
-    ("solver", "body", "reason"),
-    [
-        ("fem", "alike", "springs of the penalty"),
-        ("radial", "coated", "contact edge is an unknown"),
-    ],
-)
-def test_a_solver_without_stiffness_states_the_reason(solver, body, reason) -> None:
-    asked = requested(PRESS, body=body)
-    effect = slipstick.plan(asked, solver).effects[-1]
-    assert effect.name == "contact stiffness"
-    assert not effect.on
-    assert reason in effect.why
-    end = slipstick.solve(asked, solver).steps[-1]
-    assert end.normal_stiffness is None

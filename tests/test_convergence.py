@@ -1,11 +1,14 @@
 """Tests of observed orders and limits under refinement, on artificial data with a known answer."""
 
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from verification.convergence.observed_order import (
     ObservedOrder,
@@ -17,10 +20,21 @@ from verification.convergence.observed_order import (
     refined_value,
 )
 
+Array = NDArray[Any]
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)
 EXACT = 1.0
 TERM = 0.1
+
+
+on_both_grids = pytest.mark.parametrize(
+    "sizes", [SIZES, GRIDS], ids=["doubling", "by the root of two"]
+)
+
+
+def share(rng: np.random.Generator, judge: Callable[[Array], Any], trials: int = 600) -> Any:
+    """Shares of trials in which something holds, by the scatter of six errors."""
+    return np.mean([judge(rng.standard_normal(6)) for _ in range(trials)], axis=0)
 
 
 def refined(error: np.ndarray, expected: float, sizes: np.ndarray = SIZES) -> RefinedValue:
@@ -32,7 +46,7 @@ def known(fit: RefinedValue) -> ObservedOrder:
     return fit.observed
 
 
-@pytest.mark.parametrize("sizes", [SIZES, GRIDS], ids=["doubling", "by the root of two"])
+@on_both_grids
 @pytest.mark.parametrize("order", [0.5, 1.0, 1.5, 2.0])
 def test_order_and_limit_of_a_power_law_are_exact(order: float, sizes: np.ndarray) -> None:
     fit = refined(TERM * sizes**order, order, sizes)
@@ -42,7 +56,7 @@ def test_order_and_limit_of_a_power_law_are_exact(order: float, sizes: np.ndarra
     assert fit.uncertainty < 1e-3 * TERM * sizes[-1] ** order
 
 
-@pytest.mark.parametrize("sizes", [SIZES, GRIDS], ids=["doubling", "by the root of two"])
+@on_both_grids
 @pytest.mark.parametrize("order", [1.0, 1.5])
 def test_the_next_term_does_not_hide_the_order(order: float, sizes: np.ndarray) -> None:
     fit = refined(TERM * sizes**order + TERM * sizes**2, order, sizes)
@@ -86,15 +100,14 @@ def test_no_order_that_passes_would_pass_if_it_were_lower_by_three_tenths(
 
 def test_a_verdict_on_a_kept_order_is_right_19_times_of_20(rng: np.random.Generator) -> None:
     """At the verge of what is allowed, 0.1 below: passed by chance once in twenty."""
-    fits = (
-        observed_order(SIZES, TERM * SIZES**1.4 * np.exp(0.05 * rng.standard_normal(6)))
-        for _ in range(600)
+    passed = share(
+        rng,
+        lambda e: observed_order(SIZES, TERM * SIZES**1.4 * np.exp(0.05 * e)).keeps(1.5) is True,
     )
-    passed = np.mean([fit.keeps(1.5) is True for fit in fits])
     assert 0.02 < passed < 0.08
 
 
-@pytest.mark.parametrize("sizes", [SIZES, GRIDS], ids=["doubling", "by the root of two"])
+@on_both_grids
 def test_a_planted_floor_is_seen(sizes: np.ndarray) -> None:
     """Errors that stop falling at nine times the finest: no order is confirmed."""
     error = np.maximum(TERM * sizes**2, 9 * TERM * sizes[-1] ** 2)
@@ -104,26 +117,27 @@ def test_a_planted_floor_is_seen(sizes: np.ndarray) -> None:
 
 def test_interval_of_the_order_covers_the_truth(rng: np.random.Generator) -> None:
     """At 95 %: one degree of freedom more than there is would make it 90."""
-    covered = []
-    for _ in range(600):
-        fit = refined(TERM * SIZES**1.5 * (1 + 0.03 * rng.standard_normal(6)), 1.5)
-        covered.append(abs(known(fit).order - 1.5) <= known(fit).half_width)
-    assert 0.93 <= np.mean(covered) <= 0.97
+
+    def covered(scatter: Array) -> bool:
+        fit = known(refined(TERM * SIZES**1.5 * (1 + 0.03 * scatter), 1.5))
+        return abs(fit.order - 1.5) <= fit.half_width
+
+    assert 0.93 <= share(rng, covered) <= 0.97
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
 def test_the_limit_beats_the_finest_level_and_its_uncertainty_covers_the_rest(
     order: float, rng: np.random.Generator
 ) -> None:
-    better, covered = [], []
-    for _ in range(200):
-        noise = 1 + 0.05 * rng.standard_normal(6)
-        error = TERM * SIZES**order * noise + 0.5 * TERM * SIZES ** (order + 1)
+    def judge(scatter: Array) -> tuple[bool, bool]:
+        error = TERM * SIZES**order * (1 + 0.05 * scatter) + 0.5 * TERM * SIZES ** (order + 1)
         fit = refined(error, order)
-        better.append(abs(fit.limit - EXACT) < abs(error[-1]))
-        covered.append(abs(fit.limit - EXACT) <= 2 * fit.uncertainty)
-    assert np.mean(better) > 0.97
-    assert np.mean(covered) > 0.95
+        left = abs(fit.limit - EXACT)
+        return left < abs(error[-1]), left <= 2 * fit.uncertainty
+
+    better, covered = share(rng, judge, 200)
+    assert better > 0.97
+    assert covered > 0.95
 
 
 def test_a_value_that_does_not_change_has_no_order() -> None:
@@ -141,13 +155,13 @@ LEVELS = np.array([1 / n for n in (32, 42, 56, 74, 98, 128)])
 def test_band_contains_the_true_line(rng: np.random.Generator) -> None:
     """At the ends of the levels and in their middle, in 95 % of the trials."""
     sizes = LEVELS[[0, 2, -1]]
-    covered = []
-    for _ in range(600):
-        line = error_line(LEVELS, LEVELS**1.5 * np.exp(0.1 * rng.standard_normal(6)))
-        low, high = line.band(sizes)
-        covered.append((low <= sizes**1.5) & (sizes**1.5 <= high))
-    assert np.all(np.mean(covered, axis=0) > 0.93)
-    assert np.all(np.mean(covered, axis=0) < 0.97)
+
+    def covered(scatter: Array) -> Array:
+        low, high = error_line(LEVELS, LEVELS**1.5 * np.exp(0.1 * scatter)).band(sizes)
+        return (low <= sizes**1.5) & (sizes**1.5 <= high)
+
+    shares = share(rng, covered)
+    assert np.all((shares > 0.93) & (shares < 0.97))
 
 
 def test_errors_of_one_size_count_by_their_root_mean_square() -> None:
@@ -162,11 +176,12 @@ def test_uncertainty_covers_the_discretisation_error(
     sizes: np.ndarray, rng: np.random.Generator
 ) -> None:
     """Three levels have no two ranges that could disagree: there the scatter tells."""
-    covered = []
-    for _ in range(2000):
-        values = 1 + sizes**2 * (1 + 0.3 * rng.standard_normal(len(sizes)))
-        covered.append(abs(values[-1] - 1) <= 2 * numerical_uncertainty(sizes, values, 2.0))
-    assert np.mean(covered) > 0.95
+
+    def covered(scatter: Array) -> bool:
+        values = 1 + sizes**2 * (1 + 0.3 * scatter[: len(sizes)])
+        return abs(values[-1] - 1) <= 2 * numerical_uncertainty(sizes, values, 2.0)
+
+    assert share(rng, covered, 2000) > 0.95
 
 
 def test_uncertainty_covers_an_error_that_has_no_order_on_the_coarser_levels() -> None:

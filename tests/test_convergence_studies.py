@@ -7,24 +7,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import outcome
 
 import radial
 from contact_errors.error_formula import values_of
 from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
 from slipstick import solve
-from slipstick.cli.commands.convergence import SETTINGS
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
-from verification.closed_forms.hertz import EllipticalContact, PointContact, tangential_modulus
-from verification.closed_forms.line_contact import CylinderContact
+from verification.closed_forms.hertz import PointContact, tangential_modulus
 from verification.closed_forms.torsion import TorsionalPartialSlip
-from verification.judging.outcome import Status
 from verification.references import load_reference
 from verification.studies.refinement.levels import StudiedScene, plan_of
 from verification.studies.refinement.limits import Estimate, estimates
-from verification.studies.refinement.study import scene_study
 
 R = 18e-3
 W = 1e3
@@ -57,17 +52,6 @@ def text(shape: str, indenter: str, body: str, *steps: str, more: str = "") -> s
 def coating(ratio: float, thickness: float) -> str:
     modulus = f"young_modulus = {ratio * 210e9}, poisson_ratio = 0.3"
     return f"\n[[body.layers]]\nthickness = {thickness}\nmaterial = {{ {modulus} }}"
-
-
-def coated_row(ratio: float, thickness: float) -> Mapping[str, float]:
-    rows = load_reference("coated_frictionless_paraboloid")["rows"]
-    (row,) = (r for r in rows if (r["E1_over_E2"], r["h_over_aH"]) == (ratio, thickness))
-    return {
-        "approach": row["delta_over_deltaH"] * HERTZ.approach,
-        "contact_radius": row["a_over_aH"] * A,
-        # A stiff thin film is pressed most near the edge.
-        **({} if thickness < 1 else {"peak_pressure": row["p0_over_pH"] * HERTZ.peak_pressure}),
-    }
 
 
 def spence(nu: float, mu: float) -> Mapping[str, float]:
@@ -137,7 +121,6 @@ def twisted(torque: float) -> TorsionalPartialSlip:
 TORQUE = 0.5 * twisted(0.0).sliding_moment
 PUNCH = FlatPunchContact.under_load(W, 0.4e-3, E)
 CONE = ConeContact.under_load(W, 0.02, E)
-ELLIPSE = EllipticalContact.under_load(W, (18e-3, 9e-3), E)
 LOOP = [
     f'tangential_force = ["{force} N", 0]\nincrements = {count}'
     for force, count in ((90, 6), (-90, 12), (90, 12))
@@ -145,31 +128,11 @@ LOOP = [
 CATTANEO = text(BALL, ALIKE, ALIKE, 'tangential_force = ["60 N", 0]', more=FRICTION)
 ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
-DRAGGED = 'tangential_shift = ["12 um", 0]\nincrements = 4'
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
 PRESSED = text(BALL, RIGID, STEEL)
-ALUMINIUM = """
-[indenter]
-shape = "paraboloid"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "70 GPa", poisson_ratio = 0.33 }
-[[loading]]
-normal_force = "30 N"
-"""
-LIGHT = PointContact.under_load(30.0, 10e-3, 1 / (0.91 / 210e9 + (1 - 0.33**2) / 70e9))
-ON_ALUMINIUM = {
-    "approach": LIGHT.approach,
-    "contact_radius": LIGHT.contact_radius,
-    "peak_pressure": LIGHT.peak_pressure,
-}
-
 SCENES = {
     "smooth Hertz": Scene(PRESSED, SMOOTH, 1e-5),
-    "smooth Hertz on rings": Scene(PRESSED, SMOOTH, 1e-9, solver="radial", u=1e-8),
-    "steel on aluminium": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-5, solver=FEM),
-    "steel on aluminium, penalty": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-4, 16, solver="fem"),
+    "smooth Hertz on elements": Scene(PRESSED, SMOOTH, 1e-5, solver=FEM),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
         # The order is between ½ and 1 by the place of the rim in its cells. The radius is that of
@@ -189,10 +152,6 @@ SCENES = {
         16,
         reason="the thickness of a layer is",
     ),
-    "coated ball": Scene(text(BALL, RIGID, STEEL, more=coating(2, A)), coated_row(2, 1), 2e-5),
-    "gross slip": Scene(
-        text(BALL, ALIKE, ALIKE, DRAGGED, more=FRICTION), {"tangential_force_x": MU * W}, 1e-6, 24
-    ),
     "Cattaneo-Mindlin on rings": Scene(
         text(BALL, PLAIN, PLAIN, LOOP[0], more=FRICTION),
         {"tangential_shift_x": pushed(0.9).shift, "stick_radius": pushed(0.9).stick_radius},
@@ -207,11 +166,6 @@ SCENES = {
             "energy_per_cycle": 4 * pushed(0.9).dissipated_energy,
         },
         5e-4,
-    ),
-    "ellipse": Scene(
-        text('shape = "ellipsoid"\nradii = ["18 mm", "9 mm"]', RIGID, STEEL),
-        {"approach": ELLIPSE.approach, "peak_pressure": ELLIPSE.peak_pressure},
-        1e-5,
     ),
     "torsion": Scene(
         text(BALL, ALIKE, ALIKE, f"torque = {TORQUE}", more=FRICTION),
@@ -252,24 +206,6 @@ def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) ->
     assert first == (4, 4)
 
 
-def test_strips_of_a_line_contact_are_refined(tmp_path: Path) -> None:
-    """A required half width is judged by its levels of strips, against Hertz."""
-    shape = BALL.replace("paraboloid", "cylinder")
-    pressed = text(shape, STEEL, STEEL).replace("1 kN", "1 kN/mm")
-    studied = StudiedScene(read(f"{pressed}[semi_analytical]\ncells = 256", tmp_path), 1, CELLS)
-    study = scene_study(studied, 4, "half_width 1%", 1.0)
-    cases = [
-        case for case in study.cases(SETTINGS) if not case.name.startswith(f"{CELLS}-accuracy")
-    ]
-    conclusion = study.conclude(SETTINGS, {case.name: case.compute() for case in cases})
-    (judged,) = conclusion.statements
-    assert (judged.claim, judged.outcome) == ("required accuracy of the half width", Status.PASS)
-    (row,) = (row for row in conclusion.rows if row.parameters["quantity"] == "half_width")
-    exact = CylinderContact(1e6, 18e-3, 210e9 / 0.91 / 2, 1.0).contact_radius
-    assert row.measures["limit"] == pytest.approx(exact, abs=row.measures["uncertainty"])
-    assert row.measures["uncertainty"] < 2e-3 * exact
-
-
 @pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
 def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
     contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
@@ -279,21 +215,3 @@ def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) 
     for part in level.parts:
         name, of = part.parameters["quantity"], part.parameters["of"]
         assert level.measures[name] in np.atleast_1d(end[of])
-
-
-@pytest.mark.usefixtures("one_process")
-@pytest.mark.parametrize(
-    ("scene", "mesh", "text", "exit_code"),
-    [
-        ("cusp of a cone", "cells = [32, 32]", "the exact value is infinite", 0),
-        ("smooth Hertz", "window = [3e-4, 3e-4]", "5 have none: ContactAtWindowEdge", 6),
-    ],
-)
-def test_what_has_no_limit_is_told(
-    scene: str, mesh: str, text: str, exit_code: int, tmp_path: Path
-) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(f"{SCENES[scene].text}\n[semi_analytical]\n{mesh}")
-    ended = outcome("convergence", path, "--most-seconds", 1, "-o", "out", cwd=tmp_path)
-    assert text in ended.stdout
-    assert ended.returncode == exit_code

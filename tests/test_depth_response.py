@@ -10,7 +10,6 @@ from stack_strategies import WAVENUMBERS, stacks
 
 from semi_analytical.frf.depth import Descent, Level, in_plane_stresses, material_at
 from semi_analytical.frf.stack import Stack
-from semi_analytical.frf.surface import scalars
 
 # Rounding of one evaluation, relative to the largest entry of its kind.
 ROUNDING = 1e-14
@@ -120,14 +119,6 @@ def placed(draw, **kinds):
     return stack, Level(top + draw(st.floats(0, 1)) * thickness, layer)
 
 
-@given(stacks(), WAVENUMBERS)
-def test_surface_carries_the_applied_tractions_and_moves_as_the_surface_frf_says(stack, alpha):
-    alpha = np.array([alpha])
-    fields, surface = Descent(stack, alpha).at(Level(0.0, 0)), scalars(stack, alpha)
-    np.testing.assert_array_equal(fields.traction[..., 0], np.eye(2))
-    assert fields.transverse_traction[0] == 1
-    expected = np.array([[surface.c11, surface.c12], [surface.c12, surface.c22]])
-    assert_same(fields, (expected, fields.traction, surface.csh, fields.transverse_traction))
 
 
 @given(placed(), WAVENUMBERS)

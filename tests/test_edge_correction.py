@@ -69,9 +69,8 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
 
 def test_the_edge_on_a_stiff_film_is_where_rings_have_it():
     film = Layer(thickness=A / 4, material=steel(young_modulus=4 * steel().young_modulus))
-    coated = frictionless(PRESS, indenter=RIGID_BALL).model_copy(
-        update={"body": Body(material=steel(), layers=(film,))}
-    )
+    body = Body(material=steel(), layers=(film,))
+    coated = scene(PRESS, friction=None, indenter=RIGID_BALL, body=body)
     (rings,) = slipstick.solve(coated, "radial").steps
     (end,) = slipstick.solve(coated, discretisation=SurfaceDiscretisation(cells=(64, 64))).steps
     assert end.contact_radius == pytest.approx(rings.contact_radius, rel=1e-4)

@@ -52,16 +52,7 @@ BODIES = {
     "indenter coupled, friction strong": lambda loading: coupled_scenes.scene(
         *loading, body=Body(material=RIGID), indenter=paraboloid(), friction=0.6
     ),
-    "frictionless": lambda loading: contact_scenes.scene(
-        *(without_friction(step) for step in loading), friction=None
-    ),
 }
-
-
-def without_friction(step):
-    """The same but for what needs friction; what is left then presses on."""
-    kept = {key: step[key] for key in step if key not in ("tangential_shift", "twist")}
-    return kept if len(kept) > 1 else {**PRESS, **kept}
 
 
 def assert_first_law(increments, cell_area):

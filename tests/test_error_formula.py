@@ -28,6 +28,7 @@ from contact_errors.error_formula import (
 from contact_scene import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
+    Scene,
 )
 from contact_scene.contact_features import Features
 from contact_scene.quantities.stated_error import (
@@ -39,39 +40,52 @@ from fem_reference import Path as ElementPath
 from fem_reference.discretised import ElementSolver
 from radial.discretised import RingSolver
 
+NATURAL = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
 
-def errors_of_one(order: float, comparisons: list[Comparison], features: Features) -> StatedError:
-    """Error of an approach of 2 with the natural sizes of a contact."""
-    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
-    values = {name: np.ones(1) for name in names} | {"approach": np.array([2.0])}
-    needed = {comparison.part: [True] for comparison in comparisons} or {"cells": [True]}
-    run = SolvedRun(scene(PRESS), [values], [1e-8], [features], comparisons, needed, {})
-    return next(run.errors())["approach"]
+
+def stated(
+    asked: Scene, steps: list[dict], comparisons: list[Comparison], *features: Features
+) -> list[dict[Any, StatedError]]:
+    """Errors of numbers at the ends of load steps of a contact whose natural sizes are 1."""
+    given = [dict.fromkeys(NATURAL, np.ones(1)) | step for step in steps]
+    parts = {comparison.part for comparison in comparisons} or {"cells"}
+    needed = {part: [True] * len(steps) for part in parts}
+    tolerances = [1e-8] * len(steps)
+    return [*SolvedRun(asked, given, tolerances, features, comparisons, needed, {}).errors()]
+
+
+def approach(size: float) -> list[dict]:
+    return [{"approach": np.array([size])}]
+
+
+def errors_of_one(comparisons: list[Comparison], features: Features) -> StatedError:
+    """Error of an approach of 2."""
+    return stated(scene(PRESS), approach(2.0), comparisons, features)[0]["approach"]
 
 
 def test_a_worked_example() -> None:
     """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 3 times the root mean square of
     0.06/(2^4 + 1)^½ = 0.01455 and 0.02/(1.875^4 + 1)^½ = 0.00547; increments 0.01/(2^0.6 - 1) =
     0.01939; tolerance 10·2e-8."""
-    two, coarse, other, recut = ([{"approach": np.array([x])}] for x in (2.0, 2.06, 1.98, 2.01))
+    two, coarse, other, recut = map(approach, (2.0, 2.06, 1.98, 2.01))
     comparisons = [
         Comparison("cells", two, coarse, [2.0]),
         Comparison("cells", two, other, [1.875]),
         Comparison("increments", two, recut, [2.0]),
     ]
-    found = errors_of_one(2.0, comparisons, Features(contact=10))
+    found = errors_of_one(comparisons, Features(contact=10))
     assert found.status is ErrorStatus.ESTIMATED
     assert found.parts == pytest.approx(
         {"cells": 0.03298, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
     )
-    few = errors_of_one(2.0, comparisons, Features(contact=3.9))
-    far = [Comparison("cells", two, [{"approach": np.array([5.0])}], [2.0])]
+    few = errors_of_one(comparisons, Features(contact=3.9))
+    far = [Comparison("cells", two, approach(5.0), [2.0])]
     assert few.status is ErrorStatus.NOT_CONVERGED
     assert "contact is 3.9 cells, below the limit 4" in (few.reason or "")
-    large = errors_of_one(2.0, far, Features(10))
+    large = errors_of_one(far, Features(10))
     assert large.status is ErrorStatus.NOT_CONVERGED
     assert "exceeds the number" in (large.reason or "")
-    unknown = errors_of_one(2.0, [], Features(10))
+    unknown = errors_of_one([], Features(10))
     assert unknown.error is None
     assert "coarse solve" in (unknown.reason or "")
     assert found.reason is None
@@ -84,9 +98,9 @@ def test_a_worked_example() -> None:
 )
 def test_the_finest_solve_has_to_resolve_the_contact(ratios, finest) -> None:
     """Four of its cells are the least, however wide those of the run are."""
-    same = [{"approach": np.array([2.0])}]
+    same = approach(2.0)
     compared = [Comparison(part, same, same, [ratio]) for part, ratio in ratios.items()]
-    found = [errors_of_one(2.0, compared, Features(contact=4 * finest * x)) for x in (1.01, 0.99)]
+    found = [errors_of_one(compared, Features(contact=4 * finest * x)) for x in (1.01, 0.99)]
     assert [one.status for one in found] == [ErrorStatus.ESTIMATED, ErrorStatus.NOT_CONVERGED]
 
 
@@ -111,15 +125,9 @@ def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(
     history, features, hidden, name
 ) -> None:
     """Slip at the edge of a smooth contact may be narrower than a cell; torque needs no slip."""
-    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
-    end = {one: np.ones(1) for one in names} | {name: np.zeros(1)}
-    steps = [end] * len(history.loading)
+    steps = [{name: np.zeros(1)}] * len(history.loading)
     cells = Comparison("cells", steps, steps, [2.0] * len(steps))
-    known = [Features(10, **features)] * len(steps)
-    run = SolvedRun(
-        history, steps, [1e-8] * len(steps), known, [cells], {"cells": [True] * len(steps)}, {}
-    )
-    *_, errors = run.errors()
+    *_, errors = stated(history, steps, [cells], *[Features(10, **features)] * len(steps))
     assert errors[name].error == (None if hidden and name != "torque" else 0.0)
 
 
@@ -130,13 +138,11 @@ def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(
 )
 def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStatus) -> None:
     """A slip annulus narrower than half a cell leaves the shift open only where something slips."""
-    names = ("approach", "normal_force", "contact_radius", "contact_area", "peak_pressure")
-    sizes = {name: np.ones(1) for name in names}
-    fine, coarse = ([{**sizes, "tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
+    one = {"approach": np.ones(1)}
+    fine, coarse = ([one | {"tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
     cells = Comparison("cells", fine, coarse, [2.0])
     posed, features = scene({**PRESS, **push(0.1)}), Features(10, annulus=0.0)
-    run = SolvedRun(posed, fine, [1e-8], [features], [cells], {"cells": [True]}, {})
-    assert next(run.errors())["tangential_shift"].status is status
+    assert stated(posed, fine, [cells], features)[0]["tangential_shift"].status is status
 
 
 @pytest.mark.parametrize(
@@ -180,22 +186,20 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios
     order = order if part == "cells" else 2.0
     exact, fine = 2.0, 2.0 + 0.1**order
     coarse = [2.0 + (0.1 * ratio) ** order for ratio in ratios]
-    of_fine, *others = ([{"approach": np.array([x])}] for x in (fine, *coarse))
     comparisons = [
-        Comparison(part, of_fine, other, [ratio])
-        for other, ratio in zip(others, ratios, strict=True)
+        Comparison(part, approach(fine), approach(other), [ratio])
+        for other, ratio in zip(coarse, ratios, strict=True)
     ]
-    found = errors_of_one(order, comparisons, Features(10, largest_order=order))
+    found = errors_of_one(comparisons, Features(10, largest_order=order))
     assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
 
 
 def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
-    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure", "approach")
-    at_2, at_3 = ({name: np.full(1, size) for name in names} for size in (2.0, 3.0))
+    at_2, at_3 = ({"peak_pressure": np.full(1, size)} for size in (2.0, 3.0))
     part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
-    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), [Features(contact=10)] * 2
-    run = SolvedRun(posed, [at_2] * 2, [1e-8] * 2, features, [part], {"cells": [True] * 2}, {})
-    first, second = (step["peak_pressure"].error for step in run.errors())
+    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), Features(contact=10)
+    errors = stated(posed, [at_2] * 2, [part], features, features)
+    first, second = (step["peak_pressure"].error for step in errors)
     assert second == first > 0.1
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from contact_scenes import PRESS, RIGID_BALL, scene, steel
 
 from contact_scene import (
     RIGID,
@@ -9,9 +10,6 @@ from contact_scene import (
     FiniteElementDiscretisation,
     IsotropicMaterial,
     Layer,
-    LoadStep,
-    Scene,
-    Sphere,
 )
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
@@ -94,23 +92,12 @@ def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, mes
 
 @pytest.mark.usefixtures("gmsh")
 def test_both_meshers_agree_within_the_stated_errors() -> None:
-    scene = Scene(
-        title="ball on a coating",
-        indenter=Sphere(radius=18e-3, material=RIGID),
-        body=Body(
-            material=IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3),
-            layers=(
-                Layer(
-                    thickness=4e-4,
-                    material=IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3),
-                ),
-            ),
-        ),
-        loading=(LoadStep(normal_force=1e3),),
-    )
+    film = Layer(thickness=4e-4, material=steel())
+    body = Body(material=steel(young_modulus=210e9), layers=(film,))
+    pressed = scene(PRESS, friction=None, indenter=RIGID_BALL, body=body)
     tensor, other = (
         solve(
-            scene,
+            pressed,
             solver="fem",
             discretisation=FiniteElementDiscretisation(elements_per_radius=12, mesher=mesher),
         )

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from fem_scenes import elements
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from contact_scene.solver_errors import UnsupportedScene
+from contact_scene import Body, IsotropicMaterial, Layer
 from fem_reference.stress import SectionField, SurfaceTractions, subsurface
 
 A = 1e-3
@@ -78,16 +77,3 @@ def test_the_indenter_carries_the_shear_reversed() -> None:
     turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]
     upper = subsurface(COATED, turned, elements(8), upper=True)
     np.testing.assert_array_equal(upper.stress(), lower.stress())
-
-
-@pytest.mark.parametrize(
-    ("body", "error"),
-    [
-        (Body(material=RIGID), ValueError),
-        (Body(material=IsotropicMaterial(young_modulus=1e6, poisson_ratio=0.5)), UnsupportedScene),
-    ],
-    ids=["rigid", "incompressible"],
-)
-def test_bodies_without_such_a_stress_are_refused(body: Body, error: type[Exception]) -> None:
-    with pytest.raises(error):
-        subsurface(body, PRESSED, elements(8))

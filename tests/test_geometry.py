@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 from strategies import SHAPED
 
 import contact_scene
-import slipstick
 from contact_scene import (
     RIGID,
     Cone,
@@ -151,28 +150,6 @@ def test_a_profile_is_read_in_any_order_unit_and_sign(tmp_path: Path) -> None:
     ):
         r = np.linspace(0, 5e-6, 11)
         np.testing.assert_allclose(shape.initial_gap(r, 0), whole.initial_gap(r, 0), atol=1e-22)
-
-
-SOLVERS = "semi-analytical", "radial", "fem", "fem-complementarity"
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_a_contact_beyond_the_last_point_of_a_profile_is_refused(solver: str) -> None:
-    shape = tip(np.linspace(0, 0.5 * A, 9), lambda r: r**2 / (2 * RADIUS))
-    with pytest.raises(UnsupportedScene, match=r"step 1.* exceeds the last radius of the profile"):
-        slipstick.solve(on(shape), solver)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_a_profile_that_touches_on_a_ring_is_for_cells_alone(solver: str) -> None:
-    shape = tip(np.linspace(0, 3 * A, 31), lambda r: (r - 0.5 * A) ** 2 / (2 * RADIUS))
-    assert shape.lowest_radius == pytest.approx(0.5 * A)
-    if solver == "semi-analytical":
-        (end,) = slipstick.solve(on(shape), solver).steps
-        assert end.pressure[64, 64] == 0 < end.contact_area
-    else:
-        with pytest.raises(UnsupportedScene, match="lowest on a ring"):
-            slipstick.solve(on(shape), solver)
 
 
 ANGLES = np.linspace(0.0, 2 * np.pi, 17)

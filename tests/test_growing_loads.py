@@ -5,7 +5,6 @@ from typing import Any
 import pytest
 from contact_scenes import (
     APPROACH,
-    LIMIT,
     LOAD,
     MU,
     NU,
@@ -21,7 +20,6 @@ from contact_scene import (
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
-from contact_scene.stepping.increment_error import has_increment_error
 
 # The discretisation, and its error of the shift over that of gross slip.
 SOLVERS: dict[str, tuple[Any, float]] = {
@@ -47,14 +45,3 @@ def test_growth_without_slip_is_followed_by_slip_from_the_edge(solver):
     # Along one line, the law for ν > 0 is 1e-3 from that of Cattaneo and Mindlin.
     assert end.tangential_shift[0] == pytest.approx(shift, rel=2e-3 + error)
     assert end.stick_radius == pytest.approx(inner.contact_radius, rel=0.03)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_loads_that_grow_by_more_than_friction_take_many(solver):
-    from_nothing = scene(
-        {"approach": APPROACH, "tangential_shift": (1.1 * MU * SOFTER * APPROACH, 0)}
-    )
-    later = scene(PRESS, {"normal_force": 2 * LOAD, "tangential_force": (1.1 * LIMIT, 0.0)})
-    for described in (from_nothing, later):
-        assert slipstick.plan(described, solver).increments[-1] > 1
-        assert has_increment_error(described)[-1]

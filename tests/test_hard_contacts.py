@@ -1,14 +1,12 @@
 """Tests of hard contacts of the stability map: the solvers converge, or refuse them by name."""
 
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 from verification.studies.stability.contacts import (
     TOLERANCE,
     LoadingPath,
-    Refusal,
     Solver,
     StabilityCell,
     Surface,
@@ -105,29 +103,3 @@ def test_hard_section_converges(cell: StabilityCell, solver: Solver) -> None:
     assert record.residual <= record.tolerance == TOLERANCE
     assert record.halvings == 0
     assert record.work == record.iterations > 0
-
-
-@pytest.mark.parametrize(
-    ("solver", "change", "kind"),
-    [
-        (ORDINARY.solver, {"push": 1.001}, Refusal.FORCE),
-        *(
-            (solver, change, kind)
-            for solver in BOTH
-            for change, kind in (
-                ({"push": 1.001}, Refusal.FORCE),
-                ({"push": 1.001, "surface": Surface.ALIKE_BALL}, Refusal.FORCE),
-                ({"surface": Surface.ROUGH}, Refusal.POSE),
-                ({"surface": Surface.GREASED}, Refusal.POSE),
-            )
-        ),
-    ],
-)
-def test_what_has_no_solution_is_refused_by_name(
-    solver: Solver, change: dict[str, Any], kind: Refusal
-) -> None:
-    cell = replace(ORDINARY, **change, solver=solver)
-    record = judge_contact(cell)
-    assert record.verdict is Verdict.REFUSED
-    assert record.refused_for is kind
-    assert cell.posable == (kind is not Refusal.POSE)

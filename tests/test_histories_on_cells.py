@@ -1,4 +1,4 @@
-"""Tests of load histories on cells: from the limit, turns of a slide, and lost contact."""
+"""Tests of load histories on cells: from the limit, turns of a slide, lost contact, and errors."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,8 @@ from contact_scenes import (
 )
 
 from contact_scene.quantities.summary import ContactStatus
-from semi_analytical import GrossSliding, solve
+from semi_analytical import ContactAtWindowEdge, GrossSliding, NotConverged, solve
+from semi_analytical.increments import stick_slip
 
 TOLERANCE = 1e-8
 CELLS = 32
@@ -89,3 +90,22 @@ def test_contact_that_is_left_and_found_again_has_no_shear_left_over():
     for increment in ends:
         assert np.all(increment.shear[:, ~increment.in_contact] == 0)
     assert np.abs(np.sum(ends[-1].shear)) * 9 * A**2 / 32**2 < 1e-9 * LIMIT
+
+
+def test_contact_that_grows_to_the_edge_names_the_step_and_keeps_the_state_before():
+    with pytest.raises(ContactAtWindowEdge, match="step 2") as caught:
+        solve(scene(PRESS, {"normal_force": 1e5}), grid(), TOLERANCE)
+    assert caught.value.last_state.normal_force == pytest.approx(1e3)
+
+
+def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):
+    def fail(*_, **__):
+        raise NotConverged("the shear", 7, 1e-3, TOLERANCE)
+
+    seen = []
+    monkeypatch.setattr(stick_slip, "shear", fail)
+    with pytest.raises(NotConverged, match=r"step 2, increment 1 of 2.*1\.00e-03.*7") as caught:
+        solve(scene(PRESS, push(0.5, increments=2)), grid(), TOLERANCE, seen.append)
+    error = caught.value
+    assert (error.iterations, error.residual, error.tolerance) == (7, 1e-3, TOLERANCE)
+    np.testing.assert_array_equal(error.last_state.pressure, seen[-1].pressure)

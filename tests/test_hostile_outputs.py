@@ -24,6 +24,13 @@ normal_force = 100
 cells = [16, 16]
 edge = "off"
 """
+SOLVER = """
+from verification import Answer
+from verification.problems.problem import HERTZ
+
+def solve(problem, level):
+    return Answer(1e-5, {("approach", 1): HERTZ.approach})
+"""
 QUICK = ("--figures", "none", "--no-error")
 COMMANDS = {
     "run": ("run", "scene.toml", *QUICK, "-o"),
@@ -32,7 +39,7 @@ COMMANDS = {
     "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
     "limit": ("limit", "scene.toml", "--set", "body.material.yield_strength=1e9", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
-    "judge": ("judge", "answered", "--page"),
+    "judge": ("judge", "mine.py:solve", "--case", "hertz_point", "--levels", "1", "--page"),
     "export": ("export", "run", "-o"),
 }
 # These look where they write before they compute, and keep what is done where they are cut off.
@@ -48,19 +55,11 @@ LONG = {
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A scene, a run of it, a challenge that is answered, and a report."""
+    """A scene, a run of it, a solver, and a report."""
     folder = tmp_path_factory.mktemp("made")
     (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
     succeeded("run", "scene.toml", *QUICK, "-o", "run", cwd=folder)
-    export = ("challenge", "export", "hertz_point", "-o", "answered")
-    succeeded(*export, cwd=folder)
-    answers = folder / "answered"
-    (answers / "solver.toml").write_text('[solver]\nname = "theirs"\n', encoding="utf-8")
-    with open(answers / "levels.csv", "a", encoding="utf-8") as levels:
-        levels.write("1,solved,,0.01,mm,,\n")
-    lines = (answers / "answers.csv").read_text(encoding="utf-8").splitlines()
-    lines[1] = lines[1].replace(",,", ",1,", 1)
-    (answers / "answers.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (folder / "mine.py").write_text(SOLVER, encoding="utf-8")
     report = report_by(case("hertz_point", {"approach": (1.0, 1.0)}, run_record(32, None)))
     (folder / "report.json").write_text(dump_report(report), encoding="utf-8")
     return folder

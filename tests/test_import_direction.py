@@ -38,30 +38,25 @@ LAYERS = (
 )
 PACKAGES = tuple(dict.fromkeys(name.partition(".")[0] for row in LAYERS for name in row))
 
-# What the modules within each name may not import.
-FORBIDDEN = {
-    "contact_scene": ("semi_analytical", "fem_reference", "verification", "scipy"),
-    "semi_analytical": ("fem_reference", "verification"),
-    "fem_reference": ("semi_analytical", "verification"),
-    "radial": ("semi_analytical", "fem_reference", "verification"),
-    "verification.closed_forms": ("contact_scene", "semi_analytical", "fem_reference"),
-    # It sees arrays and callables: a dense 4x4 matrix is as good an operator as any.
-    "contact_solver": ("contact_scene",),
+# What the modules of a package may not import from earlier rows or libraries, and exceptions.
+FORBIDDEN: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "contact_scene": (("scipy",), ()),
+    # It knows arrays and functions: a dense 4x4 matrix is as good an operator as any.
+    "contact_solver": (
+        ("contact_scene",),
+        tuple(
+            f"contact_scene.{name}" for name in ("array_types", "friction_limit", "solver_errors")
+        ),
+    ),
+    "fem_reference": (("semi_analytical",), ()),
+    # The response of layers to one wavenumber is shared.
+    "radial": (("semi_analytical", "fem_reference"), ("semi_analytical.frf",)),
 }
-# Array types, errors and the comparison with the friction limit are no part of a scene.
-BESIDE_THE_SCENE = (
-    "contact_scene.array_types",
-    "contact_scene.friction_limit",
-    "contact_scene.solver_errors",
-)
-# What the radial solver has from the semi-analytical one: how layers answer one wavenumber.
-SHARED = "semi_analytical.frf"
-ONLY_SCRIPTS = ("tests", "examples")
 
 
-def within(name: str, package: str) -> bool:
-    """Whether a dotted name is the package or something in it."""
-    return name == package or name.startswith(package + ".")
+def within(name: str, *packages: str) -> bool:
+    """Whether a dotted name is one of the packages or something in it."""
+    return any(name == one or name.startswith(f"{one}.") for one in packages)
 
 
 def module_name(path: Path, root: Path) -> str:
@@ -97,24 +92,19 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
 
 def layer(name: str) -> int | None:
     """Number of the row that holds a module; None for a module that is not ours."""
-    found = (n for n, row in enumerate(LAYERS) if any(within(name, package) for package in row))
-    return next(found, None)
+    return next((n for n, row in enumerate(LAYERS) if within(name, *row)), None)
 
 
 def objection(name: str, target: str) -> str | None:
     """Why module `name` may not import `target`; None if it may."""
-    for package, forbidden in FORBIDDEN.items():
-        if target in BESIDE_THE_SCENE:
-            continue
-        if within(name, "radial") and within(target, SHARED):
-            continue
-        if within(name, package) and any(within(target, other) for other in forbidden):
+    for package, (forbidden, allowed) in FORBIDDEN.items():
+        if within(name, package) and within(target, *forbidden) and not within(target, *allowed):
             return f"{name} imports {target}: {package} must not"
-    if any(within(target, script) for script in ONLY_SCRIPTS):
+    if within(target, "tests", "examples"):
         return f"{name} imports {target}: nothing imports scripts"
     if within(name, "verification.closed_forms"):
-        allowed = {"numpy", "scipy", *sys.stdlib_module_names}
-        if not within(target, "verification.closed_forms") and target.split(".")[0] not in allowed:
+        allowed = ("verification.closed_forms", "numpy", "scipy", *sys.stdlib_module_names)
+        if not within(target, *allowed):
             return f"{name} imports {target}: closed forms rest on numpy and scipy alone"
     own, other = layer(name), layer(target)
     if own is not None and other is not None and other > own:

@@ -1,11 +1,9 @@
-"""Tests of single increments: costs of effects, the initial guess, and the contact fraction."""
+"""Tests of single increments: the initial guess, products of a loop, and the contact fraction."""
 
 import numpy as np
 import pytest
 from contact_scenes import (
-    LOAD,
     PRESS,
-    RIGID_BALL,
     grid,
     push,
     scene,
@@ -25,76 +23,8 @@ from semi_analytical.increments.increment_history import (
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import touching_share
-from semi_analytical.operator.operator import DisplacementOperator
 
 TOLERANCE = 1e-8
-PRODUCTS = "normal", "tangential", "normal_by_shear", "tangential_by_pressure", "together"
-
-
-@pytest.fixture
-def calls(monkeypatch):
-    """Names of the products, in the order in which they are called."""
-    made = []
-
-    def spy(name):
-        plain = getattr(DisplacementOperator, name)
-
-        def counted(self, field):
-            made.append(name)
-            return plain(self, field)
-
-        monkeypatch.setattr(DisplacementOperator, name, counted)
-
-    for name in PRODUCTS:
-        spy(name)
-    return made
-
-
-@pytest.mark.parametrize(
-    ("loading", "more"),
-    [
-        ((PRESS,), {"friction": None}),
-        ((PRESS,), {"friction": None, "indenter": RIGID_BALL}),
-        ((PRESS, {"normal_force": 0.5 * LOAD}), {}),
-        ((PRESS, push(0)), {}),
-    ],
-    ids=["frictionless", "frictionless and dissimilar", "only pressed", "no push"],
-)
-def test_without_a_push_shear_costs_nothing(loading, more, calls):
-    for increment in solve(scene(*loading, **more), grid(), TOLERANCE).increments:
-        assert increment.shear is None
-        assert increment.slip is None
-        assert increment.in_stick is None
-        assert increment.dissipated_energy is None
-        assert increment.residuals.slip_direction is None
-    assert set(calls) == {"normal"}
-
-
-def test_pressure_is_not_solved_again_where_the_normal_load_is_held(calls):
-    def after(increment):
-        if increment.step == 1:
-            calls.clear()
-
-    solve(scene(PRESS, push(0.5), push(-0.5)), grid(), TOLERANCE, after)
-    assert set(calls) == {"tangential"}
-
-
-def test_convolutions_count_what_was_convolved(calls):
-    result = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE)
-    for increment, kind, price in [
-        (result.increments[0], "normal", 1),
-        (result.increments[1], "tangential", 2),
-    ]:
-        assert increment.convolutions == price * calls.count(kind)
-
-
-@pytest.mark.parametrize(
-    ("cells", "window"),
-    [((1, 8), (1.0, 1.0)), ((8, 8), (0.0, 1.0)), ((8, 8), (1.0, np.nan)), ((8, 8), (1.0, np.inf))],
-)
-def test_impossible_grid_is_refused(cells, window):
-    with pytest.raises(ValueError, match=r"use (at least 2|two positive)"):
-        SurfaceGrid(cells, window)
 
 
 def previous(force, shift, torque, twist, size) -> PreviousIncrement:

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
+from strategies import as_toml
 
 from contact_scene import RIGID, Scene, SceneError
 from contact_scene.reading.array_file import ArrayFile
@@ -110,22 +111,17 @@ def draw_cell(rng: np.random.Generator) -> StabilityCell:
 def write_scene(scene: Scene, file: Path) -> None:
     """Write a scene file and the files of its arrays."""
 
-    def given_keys(model: BaseModel) -> list[tuple[str, Any]]:
-        return [(key, value) for key, value in model if value is not None]
-
-    def text(value: Any, name: str) -> str:
+    def document(value: Any, name: str = "") -> Any:
         if isinstance(value, BaseModel):
-            parts = (f"{key} = {text(part, key)}" for key, part in given_keys(value))
-            return "{ " + ", ".join(parts) + " }"
+            return {key: document(part, key) for key, part in value if part is not None}
         if isinstance(value, ArrayFile):
             np.save(file.with_name(f"{name}.npy"), value.values)
-            return f'"{name}.npy"'
+            return f"{name}.npy"
         if isinstance(value, list | tuple):
-            return "[" + ", ".join(text(part, name) for part in value) + "]"
-        return json.dumps(value.value if value is RIGID else value)
+            return [document(part, name) for part in value]
+        return value.value if value is RIGID else value
 
-    lines = (f"{key} = {text(value, key)}\n" for key, value in given_keys(scene))
-    file.write_text("".join(lines) + COARSE, encoding="utf-8")
+    file.write_text(as_toml(document(scene)) + COARSE, encoding="utf-8")
 
 
 def _failures_of(scene: Path) -> Iterator[str]:
