@@ -23,8 +23,23 @@ from semi_analytical.increments.increment_history import (
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import touching_share
+from semi_analytical.operator.operator import DisplacementOperator
 
 TOLERANCE = 1e-8
+
+
+def test_products_are_counted_and_a_constant_load_needs_none_of_pressure(monkeypatch):
+    """One convolution for the normal displacement, and two for the tangential one."""
+    made = []
+
+    def counted(name, plain):
+        return lambda self, field: made.append(name) or plain(self, field)
+
+    for name in ("normal", "tangential"):
+        plain = getattr(DisplacementOperator, name)
+        monkeypatch.setattr(DisplacementOperator, name, counted(name, plain))
+    pressed, pushed = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE).increments
+    assert made == ["normal"] * pressed.convolutions + ["tangential"] * (pushed.convolutions // 2)
 
 
 def previous(force, shift, torque, twist, size) -> PreviousIncrement:
