@@ -171,7 +171,3 @@ def test_a_refusal_for_another_reason_is_not_due() -> None:
         outcome = Status.PASS if kind is Refusal.FORCE else Status.FAIL
         assert study.refusals_are_due({beyond: refusal(kind)}).outcome is outcome
         assert study.refusals_are_due({ORDINARY: refusal(kind)}).outcome is Status.FAIL
-
-
-def test_missing_records_make_the_map_inconclusive_not_good() -> None:
-    assert outcomes({}) == ([Status.INCONCLUSIVE] * 3 + [None]) * len(Solver)
