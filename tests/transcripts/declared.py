@@ -71,13 +71,19 @@ def held(value: object) -> list[object]:
 def stated(module: ModuleType) -> Iterator[object]:
     """Constants of a module, and default values in its functions and classes."""
     for name, value in vars(module).items():
-        if isinstance(value, type) and value.__module__ == module.__name__:
-            yield from ([name, one] for name, one in vars(value).items() if name[:2] != "__")
+        own = getattr(value, "__module__", "") == module.__name__
+        if isinstance(value, type) and own:
+            yield from (defaults(one) for key, one in vars(value).items() if key[:2] != "__")
             yield [one.default for one in getattr(value, "model_fields", {}).values()]
-        elif isinstance(value, FunctionType) and value.__module__ == module.__name__:
-            yield value
-        elif name.isupper():
-            yield [name, value]
+        elif name.isupper() or (isinstance(value, FunctionType) and own):
+            yield defaults(value)
+
+
+def defaults(value: object) -> object:
+    """Return the default values of a function, whose closure may be a cache, or else the object."""
+    if isinstance(value, FunctionType):
+        return [value.__defaults__, value.__kwdefaults__]
+    return value
 
 
 def weighted(values: list[object], least: float) -> tuple[int, float]:
