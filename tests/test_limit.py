@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import outcome, slipstick
 from scipy.optimize import brentq, minimize_scalar
 
 from contact_errors.error_formula import unknown_error
@@ -30,7 +29,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.loading import CONTROLS
-from contact_scene.solver_errors import ContactAtWindowEdge, UnsupportedScene
+from contact_scene.solver_errors import ContactAtWindowEdge
 from slipstick.critical_load import LoadFactorSearch, critical_loads
 from verification.closed_forms.hertz import PointContact, contact_modulus
 from verification.closed_forms.huber_stress import (
@@ -292,12 +291,3 @@ def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
 
 
 # ---- command
-
-
-def test_scene_without_strengths_is_refused_with_the_remedy(tmp_path: Path) -> None:
-    ran = outcome("limit", "scenes/hertz.toml", cwd=ROOT)
-    assert ran.returncode == 2
-    assert "add yield_strength or tensile_strength" in ran.stderr
-    with pytest.raises(UnsupportedScene, match="interface_strength"):
-        critical_loads(pressed(Body(material=steel())))
-    assert slipstick("limit", ROOT / "scenes/hertz.toml", "--set", "body.yield_strength=1") == 2

@@ -9,11 +9,10 @@ from verification.defects.defect import planted, product_modules
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
 from verification.running import case_pool as case_store
-from verification.running.study import CaseRecord, Settings
+from verification.running.study import Settings
 from verification.studies.seeded_defects import (
     HEALTHY,
     DefectRun,
-    FailedVerdict,
     failed_verdicts,
 )
 
@@ -116,21 +115,3 @@ def test_healthy_solvers_pass(case: str) -> None:
 )
 def test_defect_is_caught(run: DefectRun) -> None:
     assert failed_verdicts(run.compute())
-
-
-A_FAILURE = FailedVerdict(quantity="approach", run="128x128", how="reference", clearance=3.0)
-
-
-def record(*failed: FailedVerdict) -> CaseRecord:
-    return CaseRecord(
-        counters={"verdicts": 3, "failed": len(failed), "inconclusive": 0},
-        parts=tuple(part.row() for part in failed),
-    )
-
-
-def test_failed_verdicts_come_back_from_their_rows() -> None:
-    by_law = FailedVerdict(
-        quantity="largest_residual", run="", how="residual", clearance=None, reason="why"
-    )
-    kept = CaseRecord.model_validate_json(record(A_FAILURE, by_law).model_dump_json())
-    assert failed_verdicts(kept) == (A_FAILURE, by_law)
