@@ -8,16 +8,11 @@ from verification.cases.catalogue import CASES
 from verification.defects.defect import planted, product_modules
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
-from verification.judging.outcome import Status
 from verification.running import case_pool as case_store
-from verification.running.study import CaseRecord, Settings
+from verification.running.study import Settings
 from verification.studies.seeded_defects import (
     HEALTHY,
-    STUDY,
     DefectRun,
-    FailedVerdict,
-    cases,
-    detection,
     failed_verdicts,
 )
 
@@ -49,7 +44,6 @@ SLOW = (
     "increments-halved",
     "one-increment",
 )
-Runs = dict[str, CaseRecord]
 
 
 def namespaces() -> dict[str, dict[str, Any]]:
@@ -121,37 +115,3 @@ def test_healthy_solvers_pass(case: str) -> None:
 )
 def test_defect_is_caught(run: DefectRun) -> None:
     assert failed_verdicts(run.compute())
-
-
-A_FAILURE = FailedVerdict(quantity="approach", run="128x128", how="reference", clearance=3.0)
-
-
-def record(*failed: FailedVerdict) -> CaseRecord:
-    return CaseRecord(
-        counters={"verdicts": 3, "failed": len(failed), "inconclusive": 0},
-        parts=tuple(part.row() for part in failed),
-    )
-
-
-def test_failed_verdicts_come_back_from_their_rows() -> None:
-    by_law = FailedVerdict(
-        quantity="largest_residual", run="", how="residual", clearance=None, reason="why"
-    )
-    kept = CaseRecord.model_validate_json(record(A_FAILURE, by_law).model_dump_json())
-    assert failed_verdicts(kept) == (A_FAILURE, by_law)
-
-
-def outcomes(records: Runs) -> list[Status | None]:
-    return [statement.outcome for statement in STUDY.conclude(QUICK, records).statements]
-
-
-def test_study_judges_missed_defects_and_false_alarms() -> None:
-    whole = {run.name: record(A_FAILURE) if run.defect else record() for run in cases(QUICK)}
-    assert outcomes(whole) == [Status.PASS, Status.PASS]
-    assert outcomes({}) == [Status.INCONCLUSIVE, Status.INCONCLUSIVE]
-    missed = whole | {run.name: record() for run in cases(QUICK) if run.defect == "bias"}
-    assert outcomes(missed) == [Status.FAIL, Status.PASS]
-    defect = DEFECTS["fe-weight"]
-    alarmed = whole | {DefectRun(HEALTHY, case).name: record(A_FAILURE) for case in defect.cases}
-    assert not detection(QUICK, alarmed, defect).verdicts
-    assert outcomes(alarmed)[1] is Status.FAIL

@@ -19,7 +19,6 @@ from verification.running.study import (
     json_text,
     parameters_of,
     row_files,
-    solved,
 )
 
 numbers = st.floats(allow_nan=False, allow_infinity=False) | st.none()
@@ -86,11 +85,6 @@ def test_the_worst_residual_decides(values: list[float | None], outcome: Status)
     said = converged([residual(v) for v in values], 1e-8, "in all")
     assert said.outcome is outcome
     assert ("not finite" in said.measured) == (None in values)
-
-
-def test_what_was_not_solved_fails() -> None:
-    assert solved("all", 3, 4).outcome is Status.FAIL
-    assert solved("all", 4, 4, "solves").measured == "4 of 4 solves"
 
 
 said = st.text(st.sampled_from('[]{}", \n\\a'), max_size=6)

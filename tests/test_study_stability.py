@@ -11,7 +11,7 @@ from contact_scene.solver_errors import GrossSliding, ResourceRefused, Unsupport
 from semi_analytical import NotConverged
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.study import CaseRecord, Settings
+from verification.running.study import CaseRecord
 from verification.studies.stability import contacts, study
 from verification.studies.stability.contacts import (
     CellRecord,
@@ -19,7 +19,6 @@ from verification.studies.stability.contacts import (
     Posed,
     Refusal,
     SolvedContact,
-    Solver,
     StabilityCell,
     Surface,
     Verdict,
@@ -94,12 +93,6 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
     assert "NotConverged" in record.reason
 
 
-def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:
-    """As runs leave them."""
-    cells = {cell.name: cell for cell in study_cells(Level.QUICK, 32)}
-    return {name: record.of_cell(cells[name]) for name, record in found.items()}
-
-
 def test_a_record_comes_back_from_its_row() -> None:
     bad = CellRecord(verdict=Verdict.REFUSED, reason="GrossSliding: …", tolerance=1e-8)
     for record in (GOOD, bad):
@@ -108,53 +101,10 @@ def test_a_record_comes_back_from_its_row() -> None:
         assert row.parameters["surface"] == "ball"
 
 
-def records() -> dict[str, CellRecord]:
-    """Good records of all cells of the quick level."""
-    found = {}
-    for cell in study_cells(Level.QUICK, 32):
-        kind = Refusal.FORCE if cell.posable else Refusal.POSE
-        refused = cell.push > 1 or not cell.posable
-        found[cell.name] = refusal(kind) if refused else GOOD
-    return found
-
-
 def refusal(kind: Refusal) -> CellRecord:
     return GOOD.model_copy(
         update={"verdict": Verdict.REFUSED, "refused_for": kind, "reason": "SomeError: too much"}
     )
-
-
-def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
-    return [s.outcome for s in study.conclude(Settings(Level.QUICK), kept(found)).statements]
-
-
-EVERYTHING_GOOD = [Status.PASS] * 3 + [None]
-
-
-@pytest.mark.parametrize("solver", Solver)
-@pytest.mark.parametrize(
-    ("verdict", "failing"),
-    [(Verdict.SILENT, 0), (Verdict.NOT_CONVERGED, 1), (Verdict.REFUSED, 2)],
-)
-def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
-    solver: Solver, verdict: Verdict, failing: int
-) -> None:
-    assert outcomes(records()) == EVERYTHING_GOOD * len(Solver)
-    bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
-    cells = [c for c in study_cells(Level.QUICK, 32) if c.solver is solver]
-    names = [cell.name for cell in cells[:2]]
-    conclusion = study.conclude(Settings(Level.QUICK), kept(records() | dict.fromkeys(names, bad)))
-    judged_as = [s.outcome for s in conclusion.statements]
-    failing += 4 * list(Solver).index(solver)
-    assert judged_as[failing] is Status.FAIL
-    assert judged_as.count(Status.FAIL) == 1
-    assert all(name in conclusion.statements[failing].measured for name in names)
-    given_up, silent = (2 * (verdict is kind) for kind in (Verdict.NOT_CONVERGED, Verdict.SILENT))
-    assert f" {given_up} gave up and {silent} are wrong in silence." in conclusion.answer
-    assert " converged, with residuals of 3e-9 at most, and " in conclusion.answer
-    if verdict is not Verdict.REFUSED:
-        listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
-        assert [row[0] for row in listed.rows] == names
 
 
 @pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
@@ -171,7 +121,3 @@ def test_a_refusal_for_another_reason_is_not_due() -> None:
         outcome = Status.PASS if kind is Refusal.FORCE else Status.FAIL
         assert study.refusals_are_due({beyond: refusal(kind)}).outcome is outcome
         assert study.refusals_are_due({ORDINARY: refusal(kind)}).outcome is Status.FAIL
-
-
-def test_missing_records_make_the_map_inconclusive_not_good() -> None:
-    assert outcomes({}) == ([Status.INCONCLUSIVE] * 3 + [None]) * len(Solver)

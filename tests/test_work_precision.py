@@ -1,6 +1,5 @@
 """Tests of the study of work and precision: Pareto front, cheapest setting, and timing."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,18 +12,15 @@ from radial.response.wavenumbers import (
     waves,
 )
 from verification.judging.case import Level
-from verification.judging.outcome import Status
 from verification.running.cold_cache import cold_cache
-from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
+from verification.running.study import Settings
 from verification.studies.work_precision import (
-    CONTACTS,
     OWN,
     STUDY,
     TARGETS,
     Method,
     Point,
     PrecisionCase,
-    cases,
     cheapest,
     dependable,
     pareto,
@@ -71,41 +67,10 @@ def test_a_setting_whose_error_is_no_number_makes_none_dependable() -> None:
     assert [p.fineness for p in dependable(points) if p.error <= 1] == [64]
 
 
-def measured(case: PrecisionCase, error: float | None = None) -> CaseRecord:
-    """A record with errors of second order, or with this error of everything."""
-    of = 2.0 / case.fineness**2 if error is None else error
-    return CaseRecord(
-        parameters=parameters_of(case),
-        measures=dict.fromkeys(CONTACTS[case.contact].errors, of),
-        words={"setting": case.text},
-        seconds=1e-5 * case.fineness**2,
-    )
-
-
-def concluded(
-    change: Callable[[PrecisionCase], CaseRecord] = measured, lost: int = 0
-) -> Conclusion:
-    records = {case.name: change(case) for case in cases(SETTINGS)[lost:]}
-    return STUDY.conclude(SETTINGS, records)
-
-
 def test_every_setting_has_a_name_of_its_own() -> None:
     for level in Level:
         names = [case.name for case in STUDY.cases(Settings(level))]
         assert len(set(names)) == len(names) > 100
-
-
-def test_good_settings_pass_and_poor_or_lost_ones_fail() -> None:
-    good = concluded()
-    assert all(s.outcome is not Status.FAIL for s in good.statements)
-    assert good.answer.startswith("0.1 % is reached for 12 of 12 quantities, in at most ")
-    assert len(good.tables) == len(good.charts) == 12
-    poor = concluded(lambda case: measured(case, 0.5))
-    claims = [s.claim for s in poor.statements if s.outcome is Status.FAIL]
-    assert claims == ["every quantity is had to 1 %"]
-    assert concluded(lost=1).statements[0].outcome is Status.FAIL
-    nothing = STUDY.conclude(SETTINGS, {}).statements
-    assert [s.outcome for s in nothing[:2]] == [Status.FAIL, Status.FAIL]
 
 
 @pytest.mark.parametrize(("contact", "error"), [("cattaneo", "shear"), ("coated", "pressure")])

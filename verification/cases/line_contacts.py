@@ -45,6 +45,7 @@ from verification.judging.declared_case import (
     PRESSURE_L1,
     SHEAR,
     STICK_RADIUS,
+    STRIPS,
     STRIPS_WINDOW,
     TOLERANCE_ELEMENTS,
     Observable,
@@ -72,7 +73,6 @@ from verification.problems.problem import (
     ReferenceKind,
 )
 
-STRIPS = 1024
 TARGET = f"accuracy target of line contacts at {STRIPS} strips, the default"
 DISTANCE = 20e-3  # at which the surface does not move
 LOAD = 1e6
@@ -126,7 +126,7 @@ def line_push(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    strips = on_strips(PUSHED_LINE, STRIPS)
+    strips = on_strips(PUSHED_LINE)
     rows = (
         Within(PRESSED_PEAK, 1e-5, TARGET),
         Within(PRESSED_APPROACH, 1e-5, f"as the peak pressure, {TARGET}"),
@@ -218,13 +218,13 @@ def line_loop(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    loop = on_strips(LOOP, STRIPS, of="loop")
+    loop = on_strips(LOOP, of="loop")
     energy = replace(
         ENERGY_PER_CYCLE,
         meaning="energy dissipated from 0.5 µW to -0.5 µW and back",
         unit=PER_LENGTH,
     )
-    strained = [on_strips(_strained(part), STRIPS, of=f"e = {part:g} a") for part in STRAINS]
+    strained = [on_strips(_strained(part), of=f"e = {part:g} a") for part in STRAINS]
     rows = (
         Within(STICK_CENTRE, 0.5 * STRIPS_WINDOW / STRIPS, HALF_A_STRIP),
         Within(STICK_RADIUS, 5e-4, f"half a strip at either end, {TARGET}"),
@@ -322,17 +322,17 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
         "under a moment of 0.2 Wb, with the half width b. The sharp edges lie 0.175 strips inside "
         "the outermost borders of strips.",
         judged(
-            on_strips(wedge, STRIPS, of="wedge"),
+            on_strips(wedge, of="wedge"),
             (
                 Within(CONTACT_RADIUS, 2e-4, TARGET, name="half_width_of_wedge"),
                 Within(PRESSURE_L1, 1e-3, "a strip over the half width: infinite at the tip"),
             ),
         ),
         judged(
-            on_strips(rounded, STRIPS, of="rounded"),
+            on_strips(rounded, of="rounded"),
             (Within(CONTACT_RADIUS, 2e-4, TARGET, name="half_width_of_rounded"),),
         ),
-        judged(on_strips(sharp, STRIPS, of="sharp"), of_flat),
+        judged(on_strips(sharp, of="sharp"), of_flat),
         equations=(
             r"W = E^* a \tan\alpha,\quad p = \tfrac{1}{\pi} E^* \tan\alpha\,\mathrm{arcosh}(a/|x|)",
             r"W = \frac{E^*}{R} \int_b^a \frac{t\,(t - b)}{\sqrt{a^2 - t^2}}\,dt",
@@ -418,18 +418,18 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
         "of the half width on a rigid base; and the cylinder of line_push is pushed along its "
         "axis, which shears the bodies without any change of volume.",
         judged(
-            on_strips(sliding, STRIPS, of="sliding"),
+            on_strips(sliding, of="sliding"),
             (
                 Within(CONTACT_RADIUS, 3e-4, "the exponents at the edges are not exactly 1/2"),
                 Within(MIDDLE_OF_CONTACT, strip, "a strip: both edges are borders of strips"),
             ),
         ),
         judged(
-            on_strips(THIN_LAYER, STRIPS, of="thin layer"),
+            on_strips(THIN_LAYER, of="thin layer"),
             (Within(PEAK_PRESSURE, 2 / 80**2, OF_THIN),),
         ),
         judged(
-            on_strips(along, STRIPS, of="along"),
+            on_strips(along, of="along"),
             (
                 Within(SHIFT_Y, 1e-5, "as the shift of line_push"),
                 Within(STICK_RADIUS, 2e-4, TARGET),
@@ -518,7 +518,7 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
     }
     compared, runs = [], []
     for pair, of in COATED_LINES.items():
-        one, other = on_elements(of, (elements,), of=pair).judged, on_strips(of, STRIPS, of=pair)
+        one, other = on_elements(of, (elements,), of=pair).judged, on_strips(of, of=pair)
         runs += [one.run, other.judged.run]
         for step, allowed in enumerate((strips, strips_pushed)[: len(of.ends)]):
             compared += [

@@ -81,6 +81,7 @@ HAMILTON_EQUATION = (
     r"\quad \mathbf{t} = (\mu p, 0, p),\quad p = p_0 \sqrt{1 - r^2/a^2}"
 )
 SLIDING = 0.3  # shear over pressure
+CELLS = 256  # per side, of the tractions above the judged stresses
 AXIS = np.array([0.1, 0.25, 0.48, 1.0, 2.0])  # depths over the contact radius
 OFF_AXIS = np.array([0.2, 0.5, 1.0])
 STIFFER = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.2)
@@ -111,27 +112,23 @@ def _hertz_tractions(cells: int) -> tuple[Field, Field]:
 
 
 @cache
-def _stress_section(cells: int, sliding: bool) -> SubsurfaceField:
-    p, q = _hertz_tractions(cells)
+def _stress_section(sliding: bool) -> SubsurfaceField:
+    p, q = _hertz_tractions(CELLS)
     depths = [float(d) for d in np.concatenate([AXIS, OFF_AXIS]) * A]
     body = Body(material=STEEL)
-    return subsurface(body, hertz_grid(cells), p, q if sliding else None, depths).along_x()
+    return subsurface(body, hertz_grid(CELLS), p, q if sliding else None, depths).along_x()
 
 
 @cache
-def _axis_errors(cells: int) -> Field:
+def _axis_errors() -> Field:
     """Compute the stress errors below the contact centre at five depths, from Hertz tractions on
     cells.
 
     The columns of the result (5, 3) are the errors of σ_zz and σ_xx under pressure, and of σ_xz
     under pressure and shear [force/length²].
-
-    cells  number of cells per side
     """
     exact = axis_stress(AXIS * A, A, P0, NU)
-    still, sliding = (
-        _stress_section(cells, slides).below()[1][: len(AXIS)] for slides in (False, True)
-    )
+    still, sliding = (_stress_section(slides).below()[1][: len(AXIS)] for slides in (False, True))
     shear = sliding_axis_shear(AXIS * A, A, SLIDING * P0)
     return np.stack(
         (still[:, ZZ] - exact.axial, still[:, XX] - exact.radial, sliding[:, XZ] - shear), axis=1
@@ -139,7 +136,7 @@ def _axis_errors(cells: int) -> Field:
 
 
 def _off_axis_error() -> float:
-    field = _stress_section(256, False)
+    field = _stress_section(False)
     exact = huber_stress(field.x, OFF_AXIS[:, None] * A, A, P0, NU)
     stress = field.stress[len(AXIS) :, ..., 0]
     return _largest_over_peak((stress[:, ZZ] - exact.axial, stress[:, YY] - exact.hoop))
@@ -153,7 +150,7 @@ def _sliding_stress_error() -> float:
     """
     depths = np.array((0.5, 1.0)) * A
     found = subsurface(
-        Body(material=STEEL), hertz_grid(256), *_hertz_tractions(256), depths.tolist()
+        Body(material=STEEL), hertz_grid(CELLS), *_hertz_tractions(CELLS), depths.tolist()
     )
     some = slice(8, None, 16)
     X, Y = (at.ravel() for at in np.meshgrid(found.x[some], found.y[some], indexing="ij"))
@@ -230,7 +227,7 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
                 "hertz_axis",
                 "largest error of σ_zz and σ_xx on the axis, over p₀",
                 cells,
-                lambda: _largest_over_peak(_axis_errors(256)[:, :2]),
+                lambda: _largest_over_peak(_axis_errors()[:, :2]),
                 closed_form(0.0, "Huber 1904; Johnson 1985, ch. 3.4", 1.0),
                 closed,
                 "p₀",
@@ -239,7 +236,7 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
                 "sliding_axis",
                 "largest error of τ_xz on the axis, over p₀",
                 cells,
-                lambda: _largest_over_peak(_axis_errors(256)[:, 2]),
+                lambda: _largest_over_peak(_axis_errors()[:, 2]),
                 closed_form(0.0, "Hamilton 1983, on the axis", 1.0),
                 closed,
                 "p₀",

@@ -52,6 +52,7 @@ from verification.quantities import unit_of
 from verification.solver import Method
 
 PER_OCTAVE = 5
+STRIPS = 1024
 STRIPS_WINDOW = 2.5  # over the half width of the contact
 
 
@@ -191,20 +192,19 @@ def on_cells(
     return ladder(problem, rungs, tuple(followed))
 
 
-def on_strips(problem: Problem, count: int, of: str = "") -> RefinementLevels:
+def on_strips(problem: Problem, of: str = "") -> RefinementLevels:
     """Create the run of a line contact on strips, for the semi-analytical solver.
 
     The window is 2.5 half widths of the contact long.
 
     problem  problem with its known answer
-    count    number of strips
     of       name of the problem within its case, with which the label begins
     """
-    grid = SurfaceGrid((count, 1), (STRIPS_WINDOW * problem.radius, STRIP_LENGTH))
+    grid = SurfaceGrid((STRIPS, 1), (STRIPS_WINDOW * problem.radius, STRIP_LENGTH))
     grid = align_to_edges(problem.scene, grid)
-    label = f"{of}, {count} strips".removeprefix(", ")
+    label = f"{of}, {STRIPS} strips".removeprefix(", ")
     run = Run(label, problem.scene, grid, problem=of)
-    return ladder(problem, [SizedRun(run, count, STRIPS_WINDOW)])
+    return ladder(problem, [SizedRun(run, STRIPS, STRIPS_WINDOW)])
 
 
 def _without_edge_correction(rung: SizedRun) -> SizedRun:

@@ -527,7 +527,7 @@ def clearance_text(verdict: Verdict) -> str:
     part = verdict.clearance
     if part is None:
         return "–"
-    if 0 < part < 0.005:
+    if part < 0.005:
         return "< 1 %"
     return f"{100 * part:.0f} %" if part < PERCENT_SHOWN_TO else f"{part:.3g} times"
 
@@ -543,7 +543,8 @@ def uncertainty_text(verdict: Verdict) -> str:
 
 def error_text(verdict: Verdict) -> str:
     """Return the error of a verdict over its scale as text, below round-off as "< 1e-12"."""
-    below = verdict.error is not None and 0 < verdict.error < ROUNDING
+    # No processor's zero: on another one the same error is the last digit of a sum.
+    below = verdict.error is not None and verdict.error < ROUNDING
     return f"< {plain(ROUNDING)}" if below else plain(verdict.error)
 
 

@@ -1,0 +1,121 @@
+"""Print the numbers that the program declares, without a solve.
+
+    python declared.py LEVEL       in cases, challenges, studies and the closures of their functions
+    python declared.py constants   in modules, and as default values of arguments and fields
+
+Each number counts by its logarithm, so that a small number counts as much as a large one.
+"""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from functools import partial
+from importlib import import_module
+from pkgutil import walk_packages
+from types import FunctionType, MethodType, ModuleType
+from zlib import crc32
+
+import numpy as np
+from pydantic import BaseModel
+
+from verification.cases.catalogue import choose
+from verification.challenge.cases import challenges
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Level
+from verification.running.study import Settings
+from verification.studies.catalogue import STUDIES
+
+PACKAGES = (
+    *("contact_solver", "contact_scene", "semi_analytical", "fem_reference", "radial"),
+    *("contact_errors", "contact_results", "slipstick", "verification"),
+)
+ROUND_OFF = 1e-13  # of computed references
+TINY = 1e-30  # less than any constant
+
+
+def parts(value: object) -> Iterator[str | float]:
+    """Numbers and texts within a declared object."""
+    if isinstance(value, str | Enum):
+        yield str(value)
+    elif isinstance(value, int | float):
+        yield float(value)
+    elif isinstance(value, np.ndarray):
+        least = ROUND_OFF * np.max(np.abs(value), initial=0.0)
+        yield from parts(np.where(np.abs(value) > least, value, 0.0).ravel().tolist())
+    else:
+        for one in held(value):
+            yield from parts(one)
+
+
+def held(value: object) -> list[object]:
+    """Return what a record, a collection or a function with its closure consists of."""
+    if isinstance(value, BaseModel):
+        return [value.__dict__]
+    if isinstance(value, type):
+        return [value.__qualname__]
+    if is_dataclass(value):
+        return [getattr(value, one.name) for one in fields(value)]
+    if isinstance(value, FunctionType):
+        cells = [cell.cell_contents for cell in value.__closure__ or ()]
+        return [value.__qualname__, value.__defaults__, value.__kwdefaults__, *cells]
+    if isinstance(value, MethodType):
+        return [value.__func__, value.__self__]
+    if isinstance(value, partial):
+        return [value.func, value.args, value.keywords]
+    if isinstance(value, dict):
+        return [*value.keys(), *value.values()]
+    return list(value) if isinstance(value, list | tuple) else []
+
+
+def stated(module: ModuleType) -> Iterator[object]:
+    """Constants of a module, and default values in its functions and classes."""
+    for name, value in vars(module).items():
+        own = getattr(value, "__module__", "") == module.__name__
+        if isinstance(value, type) and own:
+            yield from (defaults(one) for key, one in vars(value).items() if key[:2] != "__")
+            yield [one.default for one in getattr(value, "model_fields", {}).values()]
+        elif name.isupper() or (isinstance(value, FunctionType) and own):
+            yield defaults(value)
+
+
+def defaults(value: object) -> object:
+    """Return the default values of a function, whose closure may be a cache, or else the object."""
+    if isinstance(value, FunctionType):
+        return [value.__defaults__, value.__kwdefaults__]
+    return value
+
+
+def weighted(values: list[object], least: float) -> tuple[int, float]:
+    """Number of the numbers among values, and a sum of their logarithms."""
+    numbers = np.array([one for one in values if isinstance(one, float)])
+    numbers = numbers[np.isfinite(numbers)]
+    sizes = np.sign(numbers) * np.log(np.maximum(np.abs(numbers) / least, 1.0))
+    return sizes.size, sizes @ np.sin(1 + 1.7 * np.arange(sizes.size))
+
+
+def show(kind: str, name: str, *values: object) -> None:
+    """Print a digest of the texts and a sum of the numbers of a declared object."""
+    found = list(parts(values))
+    words = [one for one in found if isinstance(one, str)]
+    digest = crc32("\n".join(words).encode()) % 1000
+    print(kind, name, len(words), digest, *weighted(found, ROUND_OFF))
+
+
+if sys.argv[1] == "constants":
+    for package in map(import_module, PACKAGES):
+        for found in walk_packages(package.__path__, f"{package.__name__}."):
+            if not found.name.endswith("__main__"):
+                values = list(parts(list(stated(import_module(found.name)))))
+                print(found.name, *weighted(values, TINY))
+else:
+    level = Level[sys.argv[1]]
+    for case in choose(level):
+        show("runs", case.name, case.runs)
+        show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
+    for name, study in STUDIES.items():
+        show("study", name, study.cases(Settings(level)))
+    if level is Level.QUICK:
+        for name, challenge in challenges().items():
+            show("challenge", name, challenge)
+        show("defects", "", DEFECTS)
