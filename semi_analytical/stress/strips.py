@@ -173,11 +173,8 @@ def border_responses(stack: Stack, level: Level, x: Array) -> Field:
 
 
 def _half_space(x: Array, z: float) -> Field:
-    """Compute the responses of a half-space (8, n); at its surface, those just below it.
-
-    x  distances from the border of the load [length], positive on the loaded side
-    z  depth [length]
-    """
+    """Compute the responses of a half-space (8, n) at the depth z; at its surface, just below it.
+    x is the distance from the border of the load, positive on the loaded side."""
     angle, log_distance = np.arctan2(z, x), np.log(np.hypot(x, z))
     sine, cosine = np.sin(2 * angle), np.cos(2 * angle)
     twice = [
