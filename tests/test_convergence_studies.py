@@ -275,6 +275,18 @@ def test_strips_of_a_line_contact_are_refined(cells: int, tmp_path: Path) -> Non
         assert rows[name]["uncertainty"] < 0.5 / cells * value
 
 
+@pytest.mark.parametrize("shape", ["paraboloid", "cylinder"])
+def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) -> None:
+    force = "1 kN" if shape == "paraboloid" else "1 kN/mm"
+    pressed = text(BALL.replace("paraboloid", shape), STEEL, STEEL).replace("1 kN", force)
+    contents = read(f"{pressed}[fem_reference]\nelements_per_radius = 8", tmp_path)
+    ladders = {one.part: one for one in plan_of(StudiedScene(contents, 1, FEM), None).ladders}
+    ladder = ladders["section"]
+    sizes, levels = zip(*[x for x in ladder.levels.items() if not x[1].is_run], strict=True)
+    boxes = np.array([level.fineness.space.box for level in levels])
+    np.testing.assert_allclose(boxes[0] / boxes, (np.array(sizes) / sizes[0]) ** ladder.power)
+
+
 @pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
 def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
     contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)

@@ -304,11 +304,13 @@ class Ladder:
     levels    levels by size of the parameter, relative to that of a run
     scatters  True if the errors scatter from level to level by a factor: the single edge of a line
               contact is at another place within a strip on each level
+    power     power of the size with which the parameter of a level changes
     """
 
     part: Part
     levels: Mapping[float, SceneLevel]
     scatters: bool = False
+    power: float = 1.0
 
     @property
     def kind(self) -> Kind:
@@ -384,7 +386,9 @@ def _space_ladder(
         )
         for size in sorted(found, reverse=True)
     }
-    return Ladder(part, levels | {1.0: run}, scatters)
+    # In plane strain the error falls as the inverse of the section: levels change it by squares.
+    power = 2.0 if part == "section" and solver.scene.indenter.is_line else 1.0
+    return Ladder(part, levels | {1.0: run}, scatters, power)
 
 
 def _increment_ladder(solver: DiscretisedSolver, run: SceneLevel, count: int | None) -> Ladder:

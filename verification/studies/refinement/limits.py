@@ -204,11 +204,11 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
     finest  row of the result on the finest mesh
     """
     measures, mesh = finite_measures(finest.measures), ladder.part not in ORDERS
-    p = measures[ORDER] if mesh else ORDERS[ladder.part]
+    p = measures[ORDER] if mesh else ORDERS[ladder.part] / ladder.power
     floor = measures[FLOOR] * measures[LARGEST]
     values = tuple(finite_measures(record.measures)[name] for record in solved.values())
     sizes = tuple(
-        float(record.parameters["side"] or size) if mesh else size
+        float(record.parameters["side"] or size) if mesh else size**ladder.power
         for size, record in solved.items()
     )
     if len(set(values)) == 1:
