@@ -24,7 +24,7 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
 import numpy as np
@@ -191,8 +191,11 @@ def stress_errors(
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
     near = NEAR * _traction_cell_width(state)
-    here = _largest_by_place(field, near)
-    there = [_largest_by_place(coarse.stress(sampled), near) for coarse in response.compared()]
+    reach = _reach_of_edge(state, near)
+    here = _largest_by_place(field, near, reach)
+    there = [
+        _largest_by_place(coarse.stress(sampled), near, reach) for coarse in response.compared()
+    ]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
@@ -200,7 +203,7 @@ def stress_errors(
     for extreme in found:
         largest, unresolved = 0.0, False
         tension = extreme.measure == LARGEST_TENSION
-        shallow = extreme.on_edge or extreme.depth < near
+        shallow = extreme.on_edge or (extreme.depth < near and abs(extreme.x) <= reach)
         for at_edge, values in here.items():
             value = values.get((extreme.region, extreme.measure))
             if value is None or (at_edge and not (shallow or tension)):
@@ -277,14 +280,30 @@ def _stated(
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
 
-def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[Key, float]]:
-    """Find the largest stresses near the surface (True) and below the depth `near` (False).
+def _reach_of_edge(state: LoadedBodies, near: float) -> float:
+    """Return the distance along x beyond which the edge of a line contact has no effect on the
+    order of the stress [length]; infinite for other contacts."""
+    pressure = state.tractions["pressure"]
+    across = state.radial if state.on_rings else "x"
+    if not (state.of_strips or pressure.shape[1:] == (1,)):
+        return inf
+    return float(np.max(np.abs(state.axes[across][pressure.ravel() > 0]))) + near
+
+
+def _largest_by_place(
+    field: StressField, near: float, reach: float
+) -> Mapping[bool, Mapping[Key, float]]:
+    """Find the largest stresses near the edge of the contact (True) and elsewhere (False).
 
     The two places have different convergence orders. There is one value for each region of the body
     and each stress measure, and none at a place without points, such as near the surface for chosen
-    depths below. Points near the surface include the fitted contact edge.
+    depths below. Points near the edge include the fitted contact edge.
+
+    near   depth up to which a point is near the edge [length]
+    reach  distance along x up to which a point is near the edge [length]
     """
-    shallow, found = field.points.depth < near, {}
+    found = {}
+    shallow = (field.points.depth < near) & (np.abs(field.points.x) <= reach)
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
         points, edge = field.points.select(chosen), field.edge if at_edge else None
         if edge is not None and not points.x.size:

@@ -13,6 +13,7 @@ from contact_errors.coarse_solves import stated_errors
 from contact_results.directory.file_names import SUMMARY
 from contact_results.result_files import write_result
 from contact_results.stress.below_contact import body_response
+from contact_results.stress.body_regions import BodyRegions
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.stress_maxima import extremes
 from contact_results.surface import Rings, surface_on
@@ -306,26 +307,47 @@ def test_the_stress_below_elements_is_that_below_strips() -> None:
     assert elements["max_principal"] == pytest.approx(strips["max_principal"], rel=0.2)
 
 
-def test_a_bent_layer_has_its_tension_beyond_the_contact() -> None:
-    """On the surface and at the interface, two to three half widths from the middle."""
+def tension_of_a_layer(solve: Any, thickness: float, region: str, **settings: Any) -> Any:
+    """Largest tension in a region of a layer, twice as stiff as its base, below a cylinder."""
+    coat = {"thickness": thickness, "material": {"young_modulus": 400e9, "poisson_ratio": 0.3}}
+    body = {"material": STEEL, "layers": [coat]}
+    result = solve({"normal_force": FORCE}, body=body, friction=None, **settings)
+    found = extremes(body_response(state_of_result(result, 1)).stress())
+    (one,) = (e for e in found if (e.region, e.measure) == (region, "max_principal"))
+    assert not one.at_window_edge
+    return one
+
+
+@pytest.mark.parametrize(("widths", "region"), [(1.0, "surface"), (1.0, "base"), (20.0, "surface")])
+def test_a_bent_layer_has_its_tension_beyond_the_contact(widths: float, region: str) -> None:
+    """Two to three thicknesses from the middle."""
+    thickness = widths * HALF_WIDTH
+    one = tension_of_a_layer(solved_on_elements, thickness, region)
+    other = tension_of_a_layer(solved, thickness, region, cells=512)
+    assert other.value == pytest.approx(one.value, rel=0.1)
+    assert abs(other.x) == pytest.approx(abs(one.x), rel=0.1)
+    assert abs(other.x) > 1.5 * thickness
+
+
+def test_the_tension_of_thick_layers_is_inverse_to_their_thickness() -> None:
+    """Far from the load only its force counts; a half width of h/40 changes 1e-3 of it."""
+    one, other = (
+        tension_of_a_layer(solved, n * HALF_WIDTH, "surface", cells=128) for n in (40, 160)
+    )
+    assert 4 * other.value == pytest.approx(one.value, rel=1e-3)
+    assert abs(other.x) == pytest.approx(4 * abs(one.x), rel=5e-3)
+
+
+def test_the_surface_is_a_region_of_depth_zero_alone() -> None:
     coat = {"thickness": HALF_WIDTH, "material": {"young_modulus": 400e9, "poisson_ratio": 0.3}}
     body = {"material": STEEL, "layers": [coat]}
-    elements, strips = (
-        {
-            (one.region, one.measure): one
-            for one in extremes(body_response(state_of_result(result, 1)).stress())
-        }
-        for result in (
-            solved_on_elements({"normal_force": FORCE}, body=body, friction=None),
-            solved({"normal_force": FORCE}, cells=512, body=body, friction=None),
-        )
-    )
-    for region in ("surface", "base"):
-        one, other = (found[region, "max_principal"] for found in (elements, strips))
-        assert other.value == pytest.approx(one.value, rel=0.1)
-        assert abs(other.x) == pytest.approx(abs(one.x), rel=0.1)
-        assert abs(other.x) > 1.5 * HALF_WIDTH
-        assert not other.at_window_edge
+    result = solved(cells=64, body=body, friction=None)
+    response = body_response(state_of_result(result, 1))
+    for depths, has_surface in (((0.0, 0.5 * HALF_WIDTH), True), ((0.5 * HALF_WIDTH,), False)):
+        found = extremes(response.stress(depths))
+        assert ("surface" in {one.region for one in found}) is has_surface
+    below_a_tip = BodyRegions.from_body(response.body, HALF_WIDTH, 4, infinite=True)
+    assert "surface" not in below_a_tip.named
 
 
 OTHER = {"young_modulus": 70e9, "poisson_ratio": 0.3}

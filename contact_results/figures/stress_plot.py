@@ -99,8 +99,12 @@ def draw_interface(ax: Any, field: StressField) -> None:
     sides = {
         side: points.select(np.flatnonzero(np.abs(points.x) <= reach))
         for number, side, points in interface_points(field)
-        if number == 1
+        if number == 1 and points.x.size
     }
+    if not sides:  # files of finite elements end at a depth that a thick layer exceeds
+        ax.set_axis_off()
+        ax.set_title("The outermost interface is below the section.")
+        return
     lines = {f"σxx {side}": (points, "xx") for side, points in sides.items()}
     lines |= {f"σ{name}": (sides["above"], name) for name in ("zz", "xz")}
     largest = max(np.abs(points.components[name]).max() for points, name in lines.values())
@@ -116,7 +120,7 @@ def draw_interface(ax: Any, field: StressField) -> None:
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
-    """Draw σxx and σyy at the surface z = 0, with dotted lines at the contact edges.
+    """Draw σxx and σyy at the smallest depth, with dotted lines at the contact edges.
 
     The stress at a fitted contact edge is included. If no contact edge was fitted, the dotted lines
     are at the contact radius.
@@ -126,7 +130,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
     """
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
-    surface, ends = _surface_points(field), _edge_crossings(field)
+    surface, ends = _shallowest_points(field), _edge_crossings(field)
     parts = [surface.select(np.abs(surface.x) <= reach), *([ends] if ends else [])]
     x = np.concatenate([part.x for part in parts])
     order = np.argsort(x, kind="stable")
@@ -141,7 +145,9 @@ def draw_surface(ax: Any, field: StressField) -> None:
     for edge in _edge_positions(field):
         if edge >= surface.x.min():
             ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
-    ax.set_xlabel(f"{length.labelled(f'{field.label}, z = 0')}; dotted: edge of the contact")
+    depth = float(surface.depth[0])
+    place = f"{field.label}, z = {quantity(depth, 'm', 3) if depth else 0}"
+    ax.set_xlabel(f"{length.labelled(place)}; dotted: edge of the contact")
     ax.set_ylabel(unit.labelled("stress"))
     style.legend_above(ax)
 
@@ -155,7 +161,7 @@ def _edge_crossings(field: StressField) -> StressPoints | None:
     if field.edge is None or not field.edge.determined:
         return None
     points = field.edge.points
-    spacing = np.diff(np.unique(_surface_points(field).x)).max()
+    spacing = np.diff(np.unique(_shallowest_points(field).x)).max()
     crossing = points.select(np.abs(points.y) < spacing)
     order = np.argsort(crossing.x, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(crossing.x[order]) > spacing) + 1)
@@ -176,7 +182,7 @@ def _contact_radius(field: StressField) -> float:
     return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
 
 
-def _surface_points(field: StressField) -> StressPoints:
+def _shallowest_points(field: StressField) -> StressPoints:
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
     return points.select(at[np.argsort(points.x.flat[at], kind="stable")])
@@ -189,7 +195,7 @@ def _below_edge(field: StressField) -> tuple[StressPoints, str]:
 
     Returns the points, and their place in words.
     """
-    surface, points = _surface_points(field), field.section
+    surface, points = _shallowest_points(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _edge_positions(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
     below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _contact_radius(field))

@@ -67,7 +67,7 @@ class BodyRegions:
             layer_name(layer, count) if count else "body": (layer, tops[layer], bottom)
             for layer, bottom in enumerate(bottoms)
         }
-        if count:
+        if count and not infinite:
             named[SURFACE] = (0, first, first)
         for number, side, depth, material in interface_sides(body):
             named[f"interface {number} {side}"] = (material, depth, depth)

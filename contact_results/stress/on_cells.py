@@ -5,10 +5,10 @@ The semi-analytical solver computes such tractions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import ceil
+from math import ceil, log, log1p
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -16,7 +16,12 @@ from numpy.typing import NDArray
 
 from contact_results.stress.body_response import BodyResponse, are_layers_thin
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import FittedEdge, StressField, StressPoints
+from contact_results.stress.points import (
+    FittedEdge,
+    StressField,
+    StressPoints,
+    index_of_largest,
+)
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field, Indices
 from contact_scene.machine import one_thread
@@ -34,9 +39,10 @@ if TYPE_CHECKING:
 # the edge of the first window. Behind a contact with tangential load the largest interface stress
 # is about two radii from the centre.
 WIDE_MARGIN = 2.4
-# Doublings of the window of a line contact, at most: to 25 half widths a. A layer bends over the
-# length h (E1/E2)^(1/3); 25 a are four lengths of a layer with h = a and E1/E2 = 250.
-MAX_DOUBLINGS = 4
+# Distance between adjacent places beyond the window of a line contact, relative to their distance
+# from the origin. It resolves the stress, which varies over this distance; around its largest
+# values, places are added as dense as the outermost strips.
+GRADING = 0.02
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
 # Largest number of cells along a side for the overview, whose stress then takes less than a second,
@@ -142,6 +148,49 @@ class CellWindow:
         except EdgeNotSeen as cause:
             return cause.candidate, str(cause)
 
+    def points_beyond(self, levels: Sequence[Level]) -> Iterator[StressPoints]:
+        """Yield the stress beyond the window on both sides of a line contact, by depth.
+
+        The places form a geometric series from the outermost strip to the distance where the body
+        deforms like its base: a layer has its largest tension where it bends.
+
+        levels  depths, each with its layer
+        """
+        from semi_analytical.frf.stack import stack_of
+        from semi_analytical.stress.strips import Jumps, spread
+
+        stack, outermost = stack_of(self.body), float(self.grid.x[-1])
+        pressure, shear = self.far_tractions
+        jumps = Jumps.of_strips(self.grid, np.stack([*([] if shear is None else shear), pressure]))
+
+        def points(level: Level, x: Field, farthest: float) -> StressPoints:
+            bulk = self.state.bulk_stress(level.layer, self.indenter)[:, None]
+            return StressPoints(
+                x,
+                np.zeros_like(x),
+                np.full_like(x, level.depth),
+                np.full(len(x), level.layer),
+                np.full((3, len(x)), np.nan),
+                jumps.stresses(stack, level, x) + bulk,
+                at_edge=np.abs(x) == farthest,
+            )
+
+        dense = ceil(2 * GRADING * outermost / self.grid.spacing[0])
+        for level in levels:
+            reach = max(outermost, spread(stack, outermost, level.depth))
+            steps = 1 + ceil(log(reach / outermost) / log1p(GRADING))
+            distances = outermost * (1 + GRADING) ** np.arange(1, steps + 1)
+            x = np.concatenate([-distances[::-1], distances])
+            sparse = points(level, x, x[-1])
+            largest = {index_of_largest(values) for values in sparse.measures.values()}
+            around = [
+                np.linspace(x[k - 1], x[k + 1], dense)
+                for k in largest
+                if 0 < k < len(x) - 1 and x[k - 1] * x[k + 1] > 0
+            ]
+            more = [points(level, one, x[-1]) for one in around]
+            yield StressPoints.concatenate([sparse, *more])
+
     def computed_cells(self, section_only: bool) -> tuple[slice, Indices | None]:
         """Return the cells where maxima are searched, and the rows where the stress is computed.
 
@@ -220,9 +269,9 @@ class OnCells(BodyResponse):
         from the edge. The contact edge is then fitted between the cells, and the result has
         additional points on the fitted edge. `how` of the result states the cause if no edge was
         fitted. If a maximum under tangential load lies at the edge of the window, its depth is
-        computed again below a wider window. Below a line contact, layers that bend have their
-        largest tension several half widths from the contact: the window is doubled until no largest
-        stress grows. Both sides of every interface are always included.
+        computed again below a wider window. Below a line contact, the largest values are searched
+        beyond the window as well, see `CellWindow.points_beyond`. Both sides of every interface are
+        always included.
         """
         from semi_analytical.stress.field import MARGIN
 
@@ -233,14 +282,7 @@ class OnCells(BodyResponse):
         field = below(
             depths, MARGIN, volume=volume, see_edge=self.see_edge, section_only=self.section_only
         )
-        if len(self.state.axes["y"]) == 1 and not self.section_only:
-            with suppress(ResourceRefused):  # as below
-                for doubling in range(1, MAX_DOUBLINGS + 1):
-                    beyond = below(depths, 2**doubling * MARGIN, see_edge=False)
-                    wider = _with_points_beyond(field, beyond.points)
-                    if _largest(wider) == _largest(field):
-                        break
-                    field = wider
+        if len(self.state.axes["y"]) == 1:
             return field
         if self.section_only or not np.any(self.state.tractions.get("shear", 0.0)):
             return field
@@ -383,11 +425,16 @@ def _stress_in_window(
         shown = (edge.phi.y >= rows[0]) & (edge.phi.y <= rows[-1])
         if np.any(shown):  # an edge that is fitted in part may have points on one side only
             edge = replace(edge, phi=edge.phi.chosen(shown))
+    outside = window.points_beyond(levels)
     sections, largest, planes = [], [], []
     for field in window.stress_by_level(levels, None if why else edge, rows):
         sections.append(field.along_x())
         if not section_only:
-            largest.append(_stress_points(field, grid, columns).select_largest())
+            below = _stress_points(field, grid, columns)
+            if grid.of_strips:
+                inside = replace(below.flattened, at_edge=np.zeros(below.x.size, dtype=bool))
+                below = StressPoints.concatenate([inside, next(outside)])
+            largest.append(below.select_largest())
         planes += [field] if volume else []
     plane = SubsurfaceField.joined(sections)
     section = _stress_points(plane, grid)
@@ -441,18 +488,6 @@ def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
         stress,
         at_edge=nothing > 0,
     )
-
-
-def _with_points_beyond(field: StressField, more: StressPoints) -> StressField:
-    """Replace the outermost points of a line contact by the points of a wider window beyond."""
-    distance = np.abs(field.points.x)
-    inside = field.points.select(distance < np.max(distance))
-    beyond = more.select(np.abs(more.x) > np.max(np.abs(inside.x)))
-    return replace(field, points=StressPoints.concatenate([inside, beyond]))
-
-
-def _largest(field: StressField) -> Mapping[tuple[str, str], float]:
-    return {(one.region, one.measure): one.value for one in extremes(field)}
 
 
 def _margin_cells(pressure: Field, axis: int, margin: float) -> int:

@@ -110,7 +110,7 @@ def _region_masks(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArr
     yield "body", np.ones(points.x.shape, dtype=bool)
     if not body.layers:
         return
-    yield SURFACE, points.depth == np.min(points.depth)
+    yield SURFACE, points.depth == 0
     for material in np.unique(points.material).tolist():
         yield layer_name(material, len(body.layers)), points.material == material
     for number, side, depth, material in interface_sides(body):

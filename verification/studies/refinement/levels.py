@@ -141,6 +141,9 @@ KINDS: Mapping[Part, Kind] = {
     ),
 }
 
+# Strips are solved in milliseconds; many levels sample the places of the edge within a strip.
+STRIPS = replace(KINDS["cells"], ratio=ROOT**0.5, count=10)
+
 
 @dataclass(frozen=True)
 class StudiedScene:
@@ -297,12 +300,17 @@ def _key_scalars(values: Values, *, line: bool) -> Iterator[tuple[str, str, floa
 class Ladder:
     """Levels of one kind of refinement, coarse to fine.
 
-    part    part of the error that is refined, which is the key of its kind
-    levels  levels by size of the parameter, relative to that of a run
+    part      part of the error that is refined, which is the key of its kind
+    levels    levels by size of the parameter, relative to that of a run
+    scatters  True if the errors scatter from level to level by a factor: the single edge of a line
+              contact is at another place within a strip on each level
+    power     power of the size with which the parameter of a level changes
     """
 
     part: Part
     levels: Mapping[float, SceneLevel]
+    scatters: bool = False
+    power: float = 1.0
 
     @property
     def kind(self) -> Kind:
@@ -358,6 +366,8 @@ def _space_ladder(
     """
     kind, own, found = KINDS[part], run.fineness, {1.0: run.fineness.space}
     least, most = kind.bounds
+    if scatters := part == "cells" and solver.scene.indenter.is_line:
+        kind = STRIPS
     for factor in (kind.ratio**step for step in STEPS):
         if len(found) == (count or kind.count):
             break
@@ -376,7 +386,9 @@ def _space_ladder(
         )
         for size in sorted(found, reverse=True)
     }
-    return Ladder(part, levels | {1.0: run})
+    # In plane strain the error falls as the inverse of the section: levels change it by squares.
+    power = 2.0 if part == "section" and solver.scene.indenter.is_line else 1.0
+    return Ladder(part, levels | {1.0: run}, scatters, power)
 
 
 def _increment_ladder(solver: DiscretisedSolver, run: SceneLevel, count: int | None) -> Ladder:

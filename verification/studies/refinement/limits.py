@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 
-from contact_errors.error_formula import BELIEVED, ORDERS
+from contact_errors.error_formula import BELIEVED, ORDERS, SPREADS
 from verification.convergence.observed_order import (
     ObservedOrder,
     order_text,
@@ -194,24 +194,29 @@ def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
 def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], finest: Row) -> Effect:
     """Extrapolate the effect of one refined parameter on a result.
 
-    If the observed order keeps the theoretical one, as `verify` judges orders, the limit is that of
-    the observed order. Otherwise it is the finest value, and its bound follows from the finest
-    levels and the theoretical order.
+    If errors scatter, the limit is the finest value, and its bound is that of `_scatter`. If the
+    observed order keeps the theoretical one, as `verify` judges orders, the limit is that of the
+    observed order. Otherwise it is the finest value, and its bound follows from the finest levels
+    and the theoretical order.
 
     name    name of the result
     solved  records of the levels that have the result, by size, coarse to fine
     finest  row of the result on the finest mesh
     """
     measures, mesh = finite_measures(finest.measures), ladder.part not in ORDERS
-    p = measures[ORDER] if mesh else ORDERS[ladder.part]
+    p = measures[ORDER] if mesh else ORDERS[ladder.part] / ladder.power
     floor = measures[FLOOR] * measures[LARGEST]
     values = tuple(finite_measures(record.measures)[name] for record in solved.values())
     sizes = tuple(
-        float(record.parameters["side"] or size) if mesh else size
+        float(record.parameters["side"] or size) if mesh else size**ladder.power
         for size, record in solved.items()
     )
     if len(set(values)) == 1:
         return Effect(ladder.kind, sizes, values, p, None, values[-1], 0.0, "")
+    if ladder.scatters:
+        observed = refined_value(sizes, values, p).observed
+        bound = _scatter(sizes, values, p)
+        return Effect(ladder.kind, sizes, values, p, observed, values[-1], bound, "")
     if len(sizes) < FEWEST_LEVELS:
         why = f"{len(sizes)} levels have a result, and a limit needs {FEWEST_LEVELS}"
         return Effect(ladder.kind, sizes, values, p, None, values[-1], inf, why)
@@ -228,6 +233,19 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
             limit = followed.limit
             bound = COVERAGE * followed.uncertainty + _reach_of_order(sizes, values, fit.observed)
     return Effect(ladder.kind, sizes, values, p, fit.observed, limit, bound, why)
+
+
+def _scatter(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
+    """Compute the error of the finest level if the errors are C h^p with another C on each level.
+
+    A common power of some levels is a coincidence then. The factor is that of the stated errors of
+    runs, see `contact_errors.error_formula`. The largest spread counts, because the errors of half
+    widths have one sign: their mean square is more than that of their differences.
+    """
+    return SPREADS * max(
+        abs(value - values[-1]) / sqrt((size / sizes[-1]) ** (2 * order) + 1)
+        for size, value in zip(sizes[:-1], values[:-1], strict=True)
+    )
 
 
 def _reach_of_order(
