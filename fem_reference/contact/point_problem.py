@@ -102,9 +102,7 @@ class PointProblem:
         """The problem of pressure and shear for points of equal area."""
         compliance, scale, n = self.compliance, self.scale, len(self.gap)
         carries_shear, friction = compliance.carries_shear, self.friction
-        units = 1 / np.sqrt(np.tile(compliance.areas, 3))
-        matrix = compliance.matrix * units
-        matrix *= units[:, None]
+        matrix = compliance.equal_area_matrix
         inverse = DenseInverse(matrix)
         return scale.problem(
             product=lambda t: (matrix @ t.ravel()).reshape(t.shape),
