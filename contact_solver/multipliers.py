@@ -13,9 +13,10 @@ from typing import Protocol, TypeVar
 from contact_scene.array_types import Vector
 
 MAX_SWEEPS = 100
-# Part of a Newton step at which the line search has failed: no traction has the prescribed forces,
-# and each further step would fail like this one.
-SMALLEST_PART = 1e-9
+# Relative change of the multipliers at which the line search has failed: round-off. No traction has
+# the prescribed forces then, and each further step would fail like this one. The part of a step is
+# no measure: close to the friction limit a step is a multiple of the multipliers without bound.
+SMALLEST_CHANGE = 1e-14
 
 
 class ProjectedTraction(Protocol):
@@ -74,7 +75,7 @@ def find_multiplier(
             if (trial.defect * step).sum() <= 0.5 * steepest:
                 break
             part *= 0.5
-            if part < SMALLEST_PART:
+            if not part * abs(step).max() > SMALLEST_CHANGE * abs(multiplier).max():
                 return shifted, multiplier
         multiplier = multiplier + part * step
         shifted = trial

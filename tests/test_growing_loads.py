@@ -9,14 +9,18 @@ from contact_scenes import (
     MU,
     NU,
     PRESS,
+    YOUNG,
+    A,
     hertz,
     push,
     scene,
+    steel,
 )
 
 import slipstick
 from contact_scene import (
     FiniteElementDiscretisation,
+    Layer,
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
@@ -45,3 +49,21 @@ def test_growth_without_slip_is_followed_by_slip_from_the_edge(solver):
     # Along one line, the law for ν > 0 is 1e-3 from that of Cattaneo and Mindlin.
     assert end.tangential_shift[0] == pytest.approx(shift, rel=2e-3 + error)
     assert end.stick_radius == pytest.approx(inner.contact_radius, rel=0.03)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_one_increment_of_a_coated_contact_that_grows_is_near_four(solver):
+    """Below a coating k Δp does not move the contact uniformly; the free motion is relative to its
+    edge. Relative to the indenter, the shift of one increment was 2 % from that of four."""
+    film = Layer(thickness=A, material=steel(young_modulus=20 * YOUNG))
+    shifts = []
+    for increments in (1, 4):
+        grow = {**PRESS, **push(0.5), "increments": increments}
+        bare = scene({"normal_force": 0.2 * LOAD}, grow)
+        bodies = {
+            name: getattr(bare, name).model_copy(update={"layers": (film,)})
+            for name in ("body", "indenter")
+        }
+        result = slipstick.solve(bare.model_copy(update=bodies), solver, SOLVERS[solver][0])
+        shifts.append(result.increments[-1].tangential_shift[0])
+    assert shifts[0] == pytest.approx(shifts[1], rel=0.01)

@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from random_compliance import pushed
 
-from contact_solver.admissible_shear import admissible_shear, magnitude
+from contact_solver.admissible_shear import admissible_shear, magnitude, project_trial
 from contact_solver.gross_slip import exhausts_friction, full_slip, limit_load
 
 Y, X = (one.ravel() for one in np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5))
@@ -51,6 +51,15 @@ def test_projection_is_feasible(problem):
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     blur = 1e-11 * (np.max(bound) + 1e-3 * np.max(np.abs(y)))
     np.testing.assert_allclose(forces(q), forces_of(load), atol=X.size * blur)
+
+
+@pytest.mark.parametrize("below", [1e-3, 1e-5])
+def test_a_force_near_its_limit_is_found_from_a_far_guess(below):
+    """All points slip at the guess: a Newton step exceeds the correction by far."""
+    bound, force = np.ones(POINTS), POINTS * (1 - below)
+    y = np.stack([np.linspace(0, 1, POINTS), np.zeros(POINTS)])
+    q, _ = project_trial(pushed((force, 0.0)), y, bound, 1.0, np.array([1e3, 0.0]))
+    assert np.sum(q[0]) == pytest.approx(force, rel=1e-12)
 
 
 @given(problems())

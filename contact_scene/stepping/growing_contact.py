@@ -10,6 +10,11 @@ with u_t the displacement by the shear p and δ the approach (Jaeger 1998, Ciava
 and Deresiewicz 1953 for balls). The shear stays below the friction limit: |q₀ + k Δp| ≤ µp₀ + µΔp.
 A particle that comes into contact meanwhile sticks where it is at its first contact. Until then it
 has moved by the free motion k u_t(Δp) - Δω relative to the indenter.
+
+On layers, and on other shapes, m = k u_t(Δp) - Δω is not zero within the earlier contact A₀, where
+the surfaces stick. A smooth change of the shear cancels m there, and moves points ahead of A₀ as it
+moves the edge of A₀, up to second order in the increment. The free motion is therefore m minus its
+value at the nearest point of A₀. Without this difference it has an error of first order.
 """
 
 from __future__ import annotations
@@ -58,6 +63,8 @@ class GrowingContact:
     approach    change of the approach [length]
     springs     compliances of the test rig, normal and tangential [length/force]; displacements of
                 points contain the springs
+    at_nearest  map from a field (c, n) and a mask of points (n,) to a field (c, n) with the values
+                at the nearest points of the mask
     """
 
     areas: Vector | float
@@ -66,6 +73,7 @@ class GrowingContact:
     apart: Mask
     approach: float
     springs: tuple[float, float]
+    at_nearest: Callable[[Field, Mask], Field]
 
     def without_slip(
         self,
@@ -107,9 +115,28 @@ class GrowingContact:
         most = float(np.sum(self.areas * (limit(self.end) - limit(self.start)))) / load
         k = k * min(1.0, most / float(np.hypot.reduce(k)))
         own = rho @ k
-        free = np.where(begins, np.tensordot(k, along, 1) - np.tensordot(own, unit, 1), 0.0)
+        free = np.tensordot(k, along, 1) - np.tensordot(own, unit, 1)
+        if np.any(self.start):
+            free = free - self.at_nearest(free, self.start > 0)
+        free = np.where(begins, free, 0.0)
         shear = np.tensordot(k, unit, 1) * grown
         return Growth(shear, np.tensordot(k, moved, 1), own + spring * load * k, free)
+
+
+def at_nearest_ring(radii: Vector, values: Field, known: Mask) -> Field:
+    """Return the values of a field at the nearest ring of a mask, along each ray.
+
+    radii   radii of the rings, ascending (rings,) [length]
+    values  field (c, rings, angles)
+    known   mask of the points whose values are taken (rings, angles); 0 on rays without such points
+    """
+    found = np.zeros_like(values)
+    for angle, on_ray in enumerate(known.T):
+        rings = np.flatnonzero(on_ray)
+        if len(rings):
+            middles = 0.5 * (radii[rings[1:]] + radii[rings[:-1]])
+            found[:, :, angle] = values[:, rings[np.searchsorted(middles, radii)], angle]
+    return found
 
 
 def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:

@@ -14,6 +14,8 @@ from contact_scene.array_types import Field
 from fem_reference.elasticity.hat_functions import TractionBasis, corners_under
 
 POINTS_PER_EDGE = 3
+# Places of the points on an edge from -1 to 1, and their Gauss weights.
+PLACES, PARTS = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)
 
 
 class GaussPoints(TractionBasis):
@@ -43,12 +45,11 @@ def gauss_points(nodes: Field, reach: float = np.inf, power: int = 1) -> GaussPo
     reach  outer radius of the tractions, rounded down to a corner [length]
     power  power of r in the integrals: 1, and 0 in plane strain
     """
-    places, parts = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)
-    quadratic = np.array([places * (places - 1) / 2, 1 - places**2, places * (places + 1) / 2])
+    quadratic = np.array([PLACES * (PLACES - 1) / 2, 1 - PLACES**2, PLACES * (PLACES + 1) / 2])
     edges = corners_under(nodes, reach) - 1
     half = (nodes[2::2] - nodes[:-1:2])[:edges, None] / 2
-    radii = (nodes[1::2][:edges, None] + half * places).ravel()
-    weights = (half * parts).ravel() * radii**power
+    radii = (nodes[1::2][:edges, None] + half * PLACES).ravel()
+    weights = (half * PARTS).ravel() * radii**power
     products = np.zeros((len(nodes), len(radii)))
     for edge in range(edges):
         at = slice(edge * POINTS_PER_EDGE, (edge + 1) * POINTS_PER_EDGE)
@@ -67,9 +68,8 @@ def loading_part(radii: Field, tractions: Field, power: int = 1) -> Field:
     tractions  one component of the tractions at the points (n,)
     power      power of r in the integrals: 1, and 0 in plane strain
     """
-    furthest = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)[0][-1]
     middles = radii[POINTS_PER_EDGE // 2 :: POINTS_PER_EDGE]
-    half = (radii[POINTS_PER_EDGE - 1 :: POINTS_PER_EDGE] - middles) / furthest
+    half = (radii[POINTS_PER_EDGE - 1 :: POINTS_PER_EDGE] - middles) / PLACES[-1]
     nodes = np.append(np.ravel([middles - half, middles], order="F"), middles[-1] + half[-1])
     basis = gauss_points(nodes, power=power)
     traces = (basis.products / basis.weights).T

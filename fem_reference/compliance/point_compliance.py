@@ -161,6 +161,17 @@ class PointCompliance:
         K[np.diag_indices_from(K)] = (diagonal + self.springs * self.areas).ravel()
         return K
 
+    @cached_property
+    def equal_area_matrix(self) -> Matrix:
+        """Compliance matrix for points of equal area, see `contact_solver.unequal_areas`.
+
+        The matrix K is divided by the roots of the areas of both points [length/force].
+        """
+        units = 1 / np.sqrt(np.tile(self.areas, 3))
+        matrix = self.matrix * units
+        matrix *= units[:, None]
+        return matrix
+
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
         """Compute the displacement of the surface points by given tractions [length].
 

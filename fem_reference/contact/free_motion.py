@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from contact_scene.array_types import Field
-from contact_scene.stepping.growing_contact import GrowingContact
+from contact_scene.array_types import Field, Mask
+from contact_scene.stepping.growing_contact import GrowingContact, at_nearest_ring
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import ALONG, TWIST, Loads
@@ -39,6 +39,14 @@ def free_motion(
     shifts = [shift for shift in compliance.acting if shift != TWIST]
     changes = {shift: (ends[shift] or 0.0) - starts[shift] for shift in shifts}
     changes = {shift: change for shift, change in changes.items() if change}
+
+    def at_nearest(values: Field, known: Mask) -> Field:
+        """Return the values (2, points) at the nearest known rings; 0 at the axis."""
+        on_rings = compliance.vector_on_grid(values), compliance.scalar_on_grid(known)
+        found = at_nearest_ring(contact.rings.radii, *on_rings)
+        axis, angles = np.zeros_like(values[:, :1]), found.shape[-1]
+        return np.concatenate([axis, found.reshape(2, -1)[:, angles:]], axis=1)
+
     growth = GrowingContact(
         compliance.areas,
         before.pressure,
@@ -46,6 +54,7 @@ def free_motion(
         contact.gap > 0,
         approach - before.approach,
         contact.rig,
+        at_nearest,
     ).without_slip(
         np.array([*changes.values()]),
         compliance.motions[list(changes)],

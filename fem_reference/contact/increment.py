@@ -475,18 +475,11 @@ class _Increment:
         """
         compliance, before = self.contact.compliance, self.before
         rings = compliance.rings
-        rays = zip(
-            *(
-                compliance.scalar_on_grid(values).T
-                for values in (
-                    (before.pressure == 0) & (before.gap > 0),
-                    p == 0,
-                    before.pressure,
-                    p,
-                )
-            ),
-            strict=True,
-        )
+        apart_before, apart = (before.pressure == 0) & (before.gap > 0), p == 0
+        if np.array_equal(apart_before, apart):  # without the edges, which are expensive
+            return np.where(apart, 0.0, 1.0)
+        fields = apart_before, apart, before.pressure, p
+        rays = zip(*(compliance.scalar_on_grid(values).T for values in fields), strict=True)
         shares = [
             touching_share(rings.radii, apart_before, apart, *map(rings.contact_edge, edges))
             for apart_before, apart, *edges in rays

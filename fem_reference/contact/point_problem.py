@@ -102,9 +102,7 @@ class PointProblem:
         """The problem of pressure and shear for points of equal area."""
         compliance, scale, n = self.compliance, self.scale, len(self.gap)
         carries_shear, friction = compliance.carries_shear, self.friction
-        units = 1 / np.sqrt(np.tile(compliance.areas, 3))
-        matrix = compliance.matrix * units
-        matrix *= units[:, None]
+        matrix = compliance.equal_area_matrix
         inverse = DenseInverse(matrix)
         return scale.problem(
             product=lambda t: (matrix @ t.ravel()).reshape(t.shape),
@@ -204,18 +202,19 @@ def _motions(problem: PointProblem, motion: Vector) -> Triple:
 
 
 def _loaded(problem: PointProblem, pressure: Vector) -> Vector:
-    """Return the initial guess of the pressure, which must touch at some point.
+    """Return the initial guess of the pressure, which must touch at some point with friction.
 
-    Without any pressure it is that of separate points at half the approach, or uniform under a
-    force.
+    If it does not, it is that of separate points at half the approach, or uniform under a force.
 
     pressure  pressure at the start of the increment (points,) [force/length^2]
     """
     approach = problem.normal.approach
-    if np.any(pressure > 0):
+    everywhere = np.ones_like(pressure)
+    lacks_friction = np.any(problem.bound(everywhere)) and not np.any(problem.bound(pressure))
+    if np.any(pressure > 0) and not lacks_friction:
         return pressure
     if approach is None:
-        return np.ones_like(pressure)
+        return everywhere
     n = len(pressure)
     own = np.diagonal(problem.compliance.matrix)[2 * n :] / problem.compliance.areas
     depth = 0.5 * (approach + float(np.min(problem.gap)))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from contact_scene import CoulombFriction
-from contact_scene.array_types import Array
-from contact_scene.stepping.growing_contact import GrowingContact
+from contact_scene.array_types import Array, Field, Mask
+from contact_scene.stepping.growing_contact import GrowingContact, at_nearest_ring
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import NORMAL, TORSION, Loads, PointState, resultant_loads
 
@@ -53,6 +53,12 @@ def growth_without_slip(
         """Return the displacements (3, size) by tractions (3, size)."""
         return points.operator(tractions) / areas
 
+    def at_nearest(values: Field, known: Mask) -> Field:
+        """Return the values (2, size) at the nearest known rings."""
+        rings = len(points.radii), points.count
+        found = at_nearest_ring(points.radii, values.reshape(2, *rings), known.reshape(rings))
+        return found.reshape(values.shape)
+
     growth = GrowingContact(
         areas,
         start,
@@ -60,6 +66,7 @@ def growth_without_slip(
         points.gap_areas > 0,
         trial.motion[NORMAL] - before[NORMAL],
         springs,
+        at_nearest,
     ).without_slip(
         change[free],
         unit,

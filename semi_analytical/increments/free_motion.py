@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from contact_scene.array_types import Vector, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.rig import compliances
 from contact_scene.stepping.growing_contact import GrowingContact
 from contact_solver.conjugate_gradients import Point
 from semi_analytical.increments.normal_solve import NormalState
 from semi_analytical.increments.tangential_solve import TangentialTarget
-from semi_analytical.increments.tangential_state import TangentialState
+from semi_analytical.increments.tangential_state import TangentialState, at_nearest_edge
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.points import map_of_points, points_of
 
@@ -40,6 +40,13 @@ def growth_without_slip(
     if pressing is not None:
         start = pressing.pressure
         closed, approach = closed - pressing.displacement, approach - pressing.approach
+
+    def at_nearest(values: Field, known: Mask) -> Field:
+        """Return the values at the nearest known cells, for the cells that come into contact."""
+        touched = known.reshape(cells)
+        wanted = (pressed.pressure > 0) & ~touched
+        return points_of(at_nearest_edge(values.reshape(-1, *cells), touched, wanted))
+
     # By symmetry the domain may exclude shear in a direction without load.
     axes = np.eye(2)[change != 0]
     growth = GrowingContact(
@@ -49,6 +56,7 @@ def growth_without_slip(
         points_of(model.gap > 0),
         approach,
         compliances(model.scene.rig),
+        at_nearest,
     ).without_slip(
         axes @ change,
         axes[:, :, None] * np.ones(start.size),

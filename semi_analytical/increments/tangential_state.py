@@ -211,6 +211,24 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
     return share
 
 
+def at_nearest_edge(values: Field, touched: Mask, wanted: Mask) -> Field:
+    """Return a field (c, nx, ny) with the values at the nearest edge cells of an earlier contact.
+
+    The mean of equally near cells is used. The result is 0 outside the wanted cells.
+
+    values   field (c, nx, ny)
+    touched  mask of the cells in contact before (nx, ny), at least one
+    wanted   mask of the cells whose values are required (nx, ny)
+    """
+    from scipy.ndimage import binary_erosion  # the import takes as long as a contact
+
+    found, edge = np.zeros_like(values), touched & ~binary_erosion(touched)
+    if np.any(wanted):
+        for one, value in zip(found, values, strict=True):
+            one[wanted] = _mean_at_nearest_cells(value, edge, wanted)
+    return found
+
+
 def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
     """Compute the part of an increment during which cells of a new contact are in contact.
 
