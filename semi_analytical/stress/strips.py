@@ -72,8 +72,8 @@ def spread(stack: Stack, width: float, depth: float) -> float:
     width  half width of the loaded strips [length]
     depth  depth of the stress [length]
     """
-    bodies = [*stack.layers, *([stack.base] if stack.base else [])]
-    moduli = [body.shear_modulus for body in bodies]
+    bases = [] if stack.base is None else [stack.base.shear_modulus]
+    moduli = [*(film.shear_modulus for film in stack.layers), *bases]
     compliance = sum(film.normal_opening + film.tangential_jump for film in stack.layers)
     thickness = sum(film.thickness for film in stack.layers)
     length = width + depth + thickness + max(moduli) * compliance
