@@ -1,15 +1,12 @@
 """Tests of critical loads: first yield, cracking and debonding against closed forms."""
 
-import json
 from dataclasses import dataclass
 from math import exp, pi
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from command import outcome, slipstick
 from scipy.optimize import brentq, minimize_scalar
 
 from contact_errors.error_formula import unknown_error
@@ -31,7 +28,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.loading import CONTROLS
-from contact_scene.solver_errors import ContactAtWindowEdge, UnsupportedScene
+from contact_scene.solver_errors import ContactAtWindowEdge
 from slipstick.critical_load import LoadFactorSearch, critical_loads
 from verification.closed_forms.hertz import PointContact, contact_modulus
 from verification.closed_forms.huber_stress import (
@@ -41,7 +38,6 @@ from verification.closed_forms.huber_stress import (
 )
 from verification.closed_forms.line_contact import CylinderContact
 
-ROOT = Path(__file__).resolve().parents[1]
 E = 210e9
 R = 10e-3
 W = 50.0
@@ -293,31 +289,3 @@ def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
 
 
 # ---- command
-
-
-def test_command_writes_what_python_returns(tmp_path: Path) -> None:
-    strengths = ("yield_strength=2 GPa", "tensile_strength=900 GPa")
-    options = [word for key in strengths for word in ("--set", f"body.material.{key}")]
-    ran = outcome(
-        *("limit", "scenes/hertz.toml", *options, "--solver", "radial", "-o", tmp_path / "out"),
-        cwd=ROOT,
-    )
-    assert ran.returncode == 0, ran.stderr
-    record = json.loads((tmp_path / "out" / "limit.json").read_text(encoding="utf-8"))
-    first, second = record["limits"]
-    assert f"{first['load_factor']:.6f}" in ran.stdout
-    assert "> 100" in ran.stdout
-    assert (second["load_factor"], second["error"]) == (None, None)
-    constant, _ = yield_on_axis(0.3)
-    peak = PointContact.under_load(1e3, 0.018, contact_modulus((420e9, 0.3), (420e9, 0.3)))
-    exact = (2e9 / constant / peak.peak_pressure) ** 3
-    assert first["load_factor"] == pytest.approx(exact, rel=1e-9)
-
-
-def test_scene_without_strengths_is_refused_with_the_remedy(tmp_path: Path) -> None:
-    ran = outcome("limit", "scenes/hertz.toml", cwd=ROOT)
-    assert ran.returncode == 2
-    assert "add yield_strength or tensile_strength" in ran.stderr
-    with pytest.raises(UnsupportedScene, match="interface_strength"):
-        critical_loads(pressed(Body(material=steel())))
-    assert slipstick("limit", ROOT / "scenes/hertz.toml", "--set", "body.yield_strength=1") == 2

@@ -109,20 +109,6 @@ def test_nothing_sticks_without_friction(tmp_path: Path, solver: str) -> None:
     assert (end["tangential_force"], end["dissipated_energy"]) == ([0, 0], 0)
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_every_solver_refuses_the_same_force_in_the_same_words(tmp_path: Path, solver: str) -> None:
-    """Where the scene tells the limit, and where the solution does: an approach is prescribed."""
-    file = tmp_path / "scene.toml"
-    for normal, force in ((PRESS, "100.1"), ({"approach": 1e-6}, "100")):
-        write_scene(scene(normal, push(0.5, increments=1)), file)
-        given = f"loading[2].tangential_force=[{force}, 0]"
-        output = tmp_path / "out"
-        ran = run_command("run", file, "--solver", solver, "--set", given, "--output", output)
-        assert ran.code == 2
-        assert f"tangential force {force} N exceeds the friction limit" in ran.text
-        assert "gross sliding; prescribe tangential_shift instead" in ran.text
-
-
 def test_a_torque_at_its_friction_limit_slides(tmp_path: Path) -> None:
     """Torque 3π/16 µWa of a paraboloid, by the closed form of the radial solver."""
     limit = 3 * pi / 16 * LIMIT * A
