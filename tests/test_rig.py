@@ -7,8 +7,6 @@ import fem_reference
 import radial
 import semi_analytical
 from contact_results.cycles import fretting_cycles
-from contact_results.key_numbers import cycle_columns
-from contact_results.result_report import ResultReport
 from contact_scene import (
     FiniteElementDiscretisation,
     IsotropicMaterial,
@@ -73,18 +71,6 @@ def test_a_contact_below_a_normal_spring_is_the_contact_at_its_own_approach(solv
     assert through.actuator_approach == pytest.approx(own, rel=1e-9)
 
 
-def test_separated_bodies_have_the_position_of_the_actuator():
-    apart = scene(
-        {"normal_force": "1 kN"},
-        {"tangential_shift": ("1 um", 0), "increments": 1},
-        {"normal_force": 0, "tangential_shift": (0, 0), "increments": 2},
-        rig={"tangential_stiffness": "50 N/um", "normal_stiffness": "90 N/um"},
-    )
-    last = on_cells(apart).steps[-1]
-    assert tuple(last.actuator_shift) == tuple(last.tangential_shift) == (0, 0)
-    assert last.actuator_approach == last.approach == 0
-
-
 @pytest.mark.parametrize(
     ("amplitude", "regime", "share"),
     [(1e-10, "stick", 1e-2), (0.6e-6, "partial slip", 0.5), (3e-6, "gross slip", 4.0)],
@@ -102,13 +88,3 @@ def test_the_regime_of_a_loop_follows_its_amplitude(amplitude, regime, share):
     assert first["shift_amplitude"] == pytest.approx(amplitude)
     assert first["energy_ratio"] == pytest.approx(first["gross_slip_share"] / 5)
     assert first["actuator_amplitude"] is None
-
-
-def test_a_cycle_of_torsion_has_no_loop_of_force():
-    turns = ({"twist": turn, "increments": 2} for turn in (1e-3, -1e-3, 1e-3))
-    report = ResultReport.of(on_cells(scene({"normal_force": "1 kN"}, *turns))).with_cycles()
-    (cycle,) = report.cycles
-    assert cycle.numbers["energy_per_cycle"] > 0
-    assert "force_amplitude" not in cycle.numbers
-    (texts,) = zip(*cycle_columns(report).values(), strict=True)
-    assert texts[:2] == ("3–4 (first)", "partial slip")

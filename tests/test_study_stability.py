@@ -100,14 +100,6 @@ def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:
     return {name: record.of_cell(cells[name]) for name, record in found.items()}
 
 
-def test_a_record_comes_back_from_its_row() -> None:
-    bad = CellRecord(verdict=Verdict.REFUSED, reason="GrossSliding: …", tolerance=1e-8)
-    for record in (GOOD, bad):
-        row = CaseRecord.model_validate_json(record.of_cell(ORDINARY).model_dump_json())
-        assert CellRecord.of(row) == record
-        assert row.parameters["surface"] == "ball"
-
-
 def records() -> dict[str, CellRecord]:
     """Good records of all cells of the quick level."""
     found = {}
@@ -155,14 +147,6 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
     if verdict is not Verdict.REFUSED:
         listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
         assert [row[0] for row in listed.rows] == names
-
-
-@pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
-def test_one_cell_in_a_hundred_may_give_up(share: int, outcome: Status) -> None:
-    cells = [replace(ORDINARY, friction=0.001 * n) for n in range(100)]
-    given_up = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
-    found = dict.fromkeys(cells, GOOD) | dict.fromkeys(cells[:share], given_up)
-    assert study.nearly_everything_converges(found).outcome is outcome
 
 
 def test_a_refusal_for_another_reason_is_not_due() -> None:
