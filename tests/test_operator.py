@@ -161,11 +161,11 @@ def test_operators_on_a_domain_are_those_on_the_window(domain, window, rng):
         assert np.max(np.abs(found - expected)) < REDUCED_ROUND_OFF * np.max(np.abs(expected))
 
 
-def even_map(cells=40, spacing=4 * A / 40, order=1.0):
+def even_map():
     """A coefficient of friction that varies along x and along y."""
-    x = (np.arange(cells) - 0.5 * (cells - 1)) * spacing / A
-    waves = np.cos(2 * x)[:, None] + order * np.cos(3 * x)
-    return FrictionMap(map=MU * (1 + 0.2 * waves), spacing=spacing)
+    x = (np.arange(40) - 19.5) / 10
+    waves = np.cos(2 * x)[:, None] + np.cos(3 * x)
+    return FrictionMap(map=MU * (1 + 0.2 * waves), spacing=0.1 * A)
 
 
 class Leaf(Ellipsoid):

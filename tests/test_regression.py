@@ -32,9 +32,7 @@ from verification.regression.baseline import (
     key_of,
     read_baselines,
 )
-from verification.running.report_record import load_report
 
-FULL_REPORT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
 REASON = "first numbers | of <b>this</b> test"
 
 
@@ -192,21 +190,6 @@ def test_counts_of_a_case_are_kept_to_a_twentieth(
     changes = compare(counted(now - 80, 80), counted(20, 80)).counts
     assert [change.kind for change in changes if change.name == name] == [kind] * bool(kind)
     assert compare(counted(40, 60), counted(20, 80)).counts == ()
-
-
-def test_every_deletion_is_red() -> None:
-    """Of every fourth verdict of each case of the kept report, and of each case."""
-    kept, deleted = load_report(FULL_REPORT), 0
-    for case in kept.cases:
-        recorded = baselines_of(report_by(case), REASON)
-        assert len({key_of(verdict) for verdict in case.verdicts}) == len(case.verdicts)
-        for verdict in case.verdicts[::4]:
-            others = tuple(v for v in case.verdicts if v is not verdict)
-            fewer = case.model_copy(update={"verdicts": others, "findings": ()})
-            assert exit_code_of(compared(report_by(fewer), recorded)) == 7, verdict.name
-            deleted += 1
-        assert exit_code_of(compared(report_by(), recorded)) == 7, case.name
-    assert deleted > 200
 
 
 def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> None:

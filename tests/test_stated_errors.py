@@ -22,12 +22,6 @@ from contact_scenes import (
 from error_scenes import cells, indented, size
 
 import slipstick as package
-from contact_errors.coarse_solves import (
-    add_effects,
-    coarse_increment_counts,
-    fewest_increments,
-    ratios,
-)
 from contact_errors.error_formula import (
     values_of,
 )
@@ -145,23 +139,6 @@ MATTERS = {
 def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None:
     posed, expected = MATTERS[name]
     assert list(has_increment_error(posed)) == expected
-
-
-def test_increments_of_coarse_solves() -> None:
-    counts = (1, 2, 5, 20, 40)
-    matters = (False, True, True, True, True)
-    many, few = coarse_increment_counts(counts, matters)
-    assert many == (1, 32, 32, 40, 80)
-    assert few == (1, 8, 8, 8, 8)
-    assert fewest_increments(counts, matters) == (1, 2, 5, 8, 8)
-    # Four increments less are not worth one more solve.
-    assert fewest_increments((8, 8, 8, 12), (True,) * 4) == (8, 8, 8, 12)
-    # Without a load step of few increments, twice their number alone.
-    assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
-    # A step that inherits a state takes the ratio nearest to 1 so far.
-    assert ratios(counts, many, matters) == (1.0, 1 / 16, 5 / 32, 1 / 2, 1 / 2)
-    of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
-    assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
 
 def test_a_push_near_gross_slip_is_marked() -> None:
@@ -493,11 +470,3 @@ def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch: pytest.Monk
     (features,), (rough,) = CellSolver.of(result).features(result), result.steps
     for name in ("approach", "contact_radius", "peak_pressure"):
         assert 0 < abs(getattr(rough, name) / getattr(exact, name) - 1) <= 2 * features.left[name]
-
-
-def test_an_area_leaves_twice_the_part_of_its_radius() -> None:
-    result = package.solve(scene(PRESS, push(0.5)), "semi-analytical", cells(24))
-    for features in CellSolver.of(result).features(result):
-        for zone in ("contact", "stick"):
-            assert features.left[f"{zone}_area"] == 2 * features.left[f"{zone}_radius"]
-    assert min(features.left["contact_radius"], features.left["stick_radius"]) > 0

@@ -141,9 +141,6 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
     assert judged_as[failing] is Status.FAIL
     assert judged_as.count(Status.FAIL) == 1
     assert all(name in conclusion.statements[failing].measured for name in names)
-    given_up, silent = (2 * (verdict is kind) for kind in (Verdict.NOT_CONVERGED, Verdict.SILENT))
-    assert f" {given_up} gave up and {silent} are wrong in silence." in conclusion.answer
-    assert " converged, with residuals of 3e-9 at most, and " in conclusion.answer
     if verdict is not Verdict.REFUSED:
         listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
         assert [row[0] for row in listed.rows] == names

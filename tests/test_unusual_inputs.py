@@ -24,9 +24,6 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.checks.plausibility import implausible_input
-from contact_scene.solver_errors import (
-    ContactAtWindowEdge,
-)
 
 R = 10e-3
 E = 70e9
@@ -128,28 +125,6 @@ def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any
         np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
 
 
-# Scenes that have no answer are refused before the work, with their reason.
-
-
-def measured(heights: NDArray[np.float64]) -> HeightMap:
-    return HeightMap(material=RIGID, file=heights, spacing=5e-6)  # type: ignore[arg-type]
-
-
-AT = np.square(np.arange(32) - 15.5) * 5e-6**2 / (2 * R)
-ROUND = AT[:, None] + AT
-RIDGES = 1e-8 * np.cos(np.arange(32))[:, None] * np.cos(np.arange(32))
-
-
-def test_a_contact_that_will_reach_the_rim_is_foreseen() -> None:
-    low = measured(ROUND + RIDGES)
-    steps = [{"normal_force": force, "increments": 3} for force in (0.01, 100.0)]
-    told: list[object] = []
-    with pytest.raises(ContactAtWindowEdge, match="under normal_force 100 N, the contact reaches"):
-        slipstick.solve(scene(*steps, indenter=low), progress=told.append)
-    assert not told
-    assert not any("rim" in remark for remark in implausible_input(scene(*steps, indenter=low)))
-
-
 # A measured map means the same in every form that instruments write.
 
 PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
@@ -162,17 +137,6 @@ def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
     (folder / name).write_text(text, encoding="utf-8")
     given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
     return HeightMap.model_validate(given, context={"folder": folder})
-
-
-def test_a_map_that_counts_towards_the_body_is_flipped() -> None:
-    surface = ball_map(32)
-    towards = {"file": -1e6 * surface.file.values, "height_unit": "um", "flip": True}
-    flipped = HeightMap(material=RIGID, spacing=surface.spacing, **towards)  # type: ignore[arg-type]
-    ends = [
-        slipstick.solve(scene({"approach": APPROACH}, indenter=one)).steps[-1]
-        for one in (surface, flipped)
-    ]
-    assert ends[1].normal_force == pytest.approx(ends[0].normal_force, rel=1e-9)
 
 
 @pytest.mark.parametrize("word", ["", "NaN", "bad", "***", "#N/A", '"-nan"'])
