@@ -29,7 +29,6 @@ from contact_errors.known_pressing import known_pressing
 from contact_scene import (
     RIGID,
     Body,
-    CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
     HeightMap,
@@ -202,13 +201,10 @@ class Known(NamedTuple):
     uncertain: float = 1e-6
 
 
-def alike(young: float, nu: float, radius: float, mu: float, *steps: LoadStep) -> Scene:
+def alike(young: float, nu: float, mu: float, *steps: dict[str, Any]) -> Scene:
     matter = steel(nu, young)
-    return Scene(
-        indenter=Paraboloid(radius=radius, material=matter),
-        body=Body(material=matter),
-        friction=CoulombFriction(coefficient=mu),
-        loading=steps,
+    return scene(
+        *steps, indenter=Paraboloid(radius=0.01, material=matter), body=matter, friction=mu
     )
 
 
@@ -281,23 +277,22 @@ def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
 
 def pushed_pair(solver: str) -> Known:
     """76.149 ± 0.002 µm/100 by cells; elements neglect slip across the load."""
-    steps = LoadStep(normal_force=100.0), LoadStep(tangential_force=(12.0, 0.0))
-    posed = alike(70e9, 0.3, 0.01, 0.3, *steps)
+    posed = alike(70e9, 0.3, 0.3, {"normal_force": 100.0}, {"tangential_force": (12.0, 0.0)})
     return Known(posed, {"tangential_shift": 0.761491e-6}, None, solver, uncertain=3e-5)
 
 
 def strong_push(part: float, spoilt: tuple[str, ...] = ()) -> Known:
     """ν = .4999 with the default of one increment; the limit of 256 and 1024 increments."""
-    push_ = LoadStep(tangential_force=(part * 0.35 * 90, 0.0))
-    posed = alike(80e9, 0.4999, 0.01, 0.35, LoadStep(normal_force=90.0), push_)
+    pushed = {"tangential_force": (part * 0.35 * 90, 0.0)}
+    posed = alike(80e9, 0.4999, 0.35, {"normal_force": 90.0}, pushed)
     exact = {"dissipated_energy": 7.10343e-6, "tangential_shift": 2.229437e-6}
     return Known(posed, {} if spoilt else exact, None, spoilt=spoilt, uncertain=1e-5)
 
 
 def unresolved_rings() -> Known:
     """A contact of a few rings, laid out for one that is twenty times as wide: Hertz's."""
-    loads = (LoadStep(normal_force=0.01), LoadStep(normal_force=100.0))
-    posed = alike(70e9, 0.3, 0.01, 0.3, *loads, LoadStep(tangential_shift=(1e-7, 0.0)))
+    loads = {"normal_force": 0.01}, {"normal_force": 100.0}, {"tangential_shift": (1e-7, 0.0)}
+    posed = alike(70e9, 0.3, 0.3, *loads)
     light = EllipticalContact.under_load(
         0.01, (0.01, 0.01), contact_modulus((70e9, 0.3), (70e9, 0.3))
     )

@@ -331,7 +331,8 @@ def _agree(accepted: str, found: str) -> bool:
     relative, of_line, absolute = next(allowed, (RELATIVE, OF_LINE, 0.0))
     least = max(of_line * largest, absolute)
     return all(
-        abs(float(old) - float(new)) <= max(relative * abs(float(old)), least, _last_digit(old))
+        old == new
+        or abs(float(old) - float(new)) <= max(relative * abs(float(old)), least, _last_digit(old))
         for old, new in pairs
     )
 
