@@ -16,7 +16,6 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from semi_analytical import (
-    ContactAtWindowEdge,
     discretise,
     solve_discretised,
 )
@@ -99,12 +98,3 @@ def test_chosen_cells_divide_the_spacing_of_a_map_by_the_same_number(shape, wind
         factor = cells[0] // points[0]
         assert list(cells) == list(factor * points)
         assert min(cells) >= 128 > min((factor - 1) * points)
-
-
-def test_a_chosen_window_ends_where_the_friction_map_does():
-    small = scene(PRESS, push(0.2), friction=map_of((20, 20), 2.1 * A))
-    assert discretise(small, COARSE).window == pytest.approx((2.1 * A, 2.1 * A))
-    assert solve_discretised(small, COARSE).steps[0].contact_radius == pytest.approx(A, rel=0.05)
-    smaller = scene(PRESS, push(0.2), friction=map_of((20, 20), 1.9 * A))
-    with pytest.raises(ContactAtWindowEdge, match="friction map"):
-        solve_discretised(smaller, COARSE)
