@@ -93,7 +93,6 @@ PASSED = {"value": 2.03, "reference": 2.0, "allowed": 0.2, "interval": 0.2}
 LOST = {"allowed": 1.0, "interval": 1.0, "status": Status.INCONCLUSIVE}
 FAILED = {"value": 1.0, "error": 0.5, "allowed": 0.2, "interval": 0.2, "status": Status.FAIL}
 STATED = {"stated_error": 1e-8, "covered": True}
-NAN = {"value": None, "status": Status.INCONCLUSIVE}
 CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     # verdict, part of what is allowed (before, now) or how it is judged, kind, exit code, remark
     *(
@@ -131,10 +130,6 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     # How far below its tolerance a solve ends says nothing.
     ("largest_residual", 0.2, 0.7, SAME, 0, ""),
     ("largest_residual", 0.2, 2.0, OUTSIDE, 1, ""),
-    ("approach", {}, {"allowed": 0.5}, WORSE, 7, "tolerance"),
-    ("approach", {}, {"reference": 9e-6}, DRIFT, 5, "reference was"),
-    ("approach", {}, {"status": Status.INCONCLUSIVE}, WORSE, 7, "pass -> inconclusive"),
-    ("approach", {}, {"unit": "mm"}, DRIFT, 5, "unit was m"),
     # A bad solver scatters its levels, which widens the interval that it would be judged by.
     (ORDER, PASSED, {**LOST, "value": 1.4}, OUTSIDE, 1, "held to the recorded tolerance"),
     (ORDER, PASSED, {**LOST, "value": 1.9}, WORSE, 7, "held to the recorded tolerance"),
@@ -143,11 +138,8 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     (ORDER, FAILED, {**LOST, "value": 1.0, "error": 0.5}, BETTER, 5, "fail -> inconclusive"),
     (ORDER, LOST, FAILED, OUTSIDE, 1, ""),
     (ORDER, PASSED, FAILED, OUTSIDE, 1, ""),
-    ("order_of_pressure", {}, NAN, DRIFT, 5, ""),
-    ("order_of_pressure", NAN, NAN, SAME, 0, ""),
     ("approach", STATED, {**STATED, "stated_error": 1.4e-8}, SAME, 0, ""),
     ("approach", STATED, {**STATED, "stated_error": 1.6e-8}, DRIFT, 5, "stated error"),
-    ("approach", STATED, {**STATED, "covered": False}, WORSE, 7, ""),
 ]
 
 
