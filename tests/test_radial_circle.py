@@ -145,7 +145,7 @@ def test_a_first_guess_has_pressure_where_the_surfaces_overlap() -> None:
 
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:
-    loads = Loads((0.0, None, None, 2 * RING_LOAD), (None, 0.0, 0.0, None))
+    loads = Loads((0.0, None, None, 4 * RING_LOAD), (None, 0.0, 0.0, None))
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
         solve_increment(alike(), LAW, loads, None, TOLERANCE)
 

@@ -111,3 +111,11 @@ def test_area_under_a_square_root_is_exact_to_a_small_part_of_a_cell(semi_axes, 
     assert covered_cells(values, values > 0) == pytest.approx(
         np.pi * semi_axes[0] * semi_axes[1], rel=accuracy
     )
+
+
+@pytest.mark.parametrize("cells", [2, 6, 40, 72])
+def test_a_quarter_tells_the_area(cells):
+    values = dome((17.0, 11.0), cells=cells)
+    quarter = QUARTER
+    part = covered_cells(quarter.restrict(values), quarter.restrict(values > 0), quarter)
+    assert 4 * part == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
