@@ -71,6 +71,18 @@ def test_a_contact_below_a_normal_spring_is_the_contact_at_its_own_approach(solv
     assert through.actuator_approach == pytest.approx(own, rel=1e-9)
 
 
+def test_separated_bodies_have_the_position_of_the_actuator():
+    apart = scene(
+        {"normal_force": "1 kN"},
+        {"tangential_shift": ("1 um", 0), "increments": 1},
+        {"normal_force": 0, "tangential_shift": (0, 0), "increments": 2},
+        rig={"tangential_stiffness": "50 N/um", "normal_stiffness": "90 N/um"},
+    )
+    last = on_cells(apart).steps[-1]
+    assert tuple(last.actuator_shift) == tuple(last.tangential_shift) == (0, 0)
+    assert last.actuator_approach == last.approach == 0
+
+
 @pytest.mark.parametrize(
     ("amplitude", "regime", "share"),
     [(1e-10, "stick", 1e-2), (0.6e-6, "partial slip", 0.5), (3e-6, "gross slip", 4.0)],

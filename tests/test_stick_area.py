@@ -8,7 +8,7 @@ from semi_analytical.edge.contact_area import (
     stuck_cells,
 )
 from semi_analytical.edge_correction.stick_area import stick_area
-from semi_analytical.operator.domain import ReducedDomain
+from semi_analytical.operator.domain import QUARTER, ReducedDomain
 
 CELLS = 64
 PARTS = 12
@@ -119,3 +119,17 @@ def test_a_quarter_tells_the_area(cells):
     quarter = QUARTER
     part = covered_cells(quarter.restrict(values), quarter.restrict(values > 0), quarter)
     assert 4 * part == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
+
+
+@pytest.mark.parametrize("turned_back", [False, True], ids=["pushed", "turned back"])
+@pytest.mark.parametrize("degrees", [0.0, 35.0, 250.0])
+def test_stick_area_is_that_of_cattaneo_and_mindlin(degrees, turned_back):
+    """Shear is µp less a second dome within the stick zone; less twice that after a reversal, so
+    that the shear in the middle still points the old way."""
+    a = 28.0
+    c = 13.0
+    friction = 0.3
+    bound, inner = friction * dome((a, a)), friction * c / a * dome((c, c))
+    along = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])[:, None, None]
+    shear = (bound - (2 if turned_back else 1) * inner) * along
+    assert stuck_cells(shear, bound, inner > 0) == pytest.approx(np.pi * c**2, rel=3e-3)
