@@ -22,7 +22,14 @@ from contact_scenes import (
 from error_scenes import cells, indented, size
 
 import slipstick as package
+from contact_errors.coarse_solves import (
+    add_effects,
+    coarse_increment_counts,
+    fewest_increments,
+    ratios,
+)
 from contact_errors.error_formula import (
+    prescribed_scalars,
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
@@ -465,3 +472,42 @@ def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch: pytest.Monk
     (features,), (rough,) = CellSolver.of(result).features(result), result.steps
     for name in ("approach", "contact_radius", "peak_pressure"):
         assert 0 < abs(getattr(rough, name) / getattr(exact, name) - 1) <= 2 * features.left[name]
+
+
+def test_what_the_load_prescribes_is_exact() -> None:
+    of = scene({"normal_force": 1e3}, {"tangential_shift": (1e-7, 0.0)})
+    by_force, by_shift = stated_errors(solve(of, grid(16), 1e-8)).steps
+    assert by_force["normal_force"].status is ErrorStatus.EXACT
+    assert by_force["approach"].status is ErrorStatus.ESTIMATED
+    assert by_shift["tangential_shift"].status is ErrorStatus.EXACT
+    assert by_shift["tangential_force"].status is ErrorStatus.ESTIMATED
+    behind_spring = Rig(tangential_stiffness=1e8)
+    for rig, own, other in ((None, "shift", "actuator"), (behind_spring, "actuator", "shift")):
+        names = prescribed_scalars(of.load_path()[1], rig)
+        assert f"{own}_amplitude" in names
+        assert f"{other}_amplitude" not in names
+
+
+def test_an_area_leaves_twice_the_part_of_its_radius() -> None:
+    result = package.solve(scene(PRESS, push(0.5)), "semi-analytical", cells(24))
+    for features in CellSolver.of(result).features(result):
+        for zone in ("contact", "stick"):
+            assert features.left[f"{zone}_area"] == 2 * features.left[f"{zone}_radius"]
+    assert min(features.left["contact_radius"], features.left["stick_radius"]) > 0
+
+
+def test_increments_of_coarse_solves() -> None:
+    counts = (1, 2, 5, 20, 40)
+    matters = (False, True, True, True, True)
+    many, few = coarse_increment_counts(counts, matters)
+    assert many == (1, 32, 32, 40, 80)
+    assert few == (1, 8, 8, 8, 8)
+    assert fewest_increments(counts, matters) == (1, 2, 5, 8, 8)
+    # Four increments less are not worth one more solve.
+    assert fewest_increments((8, 8, 8, 12), (True,) * 4) == (8, 8, 8, 12)
+    # Without a load step of few increments, twice their number alone.
+    assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
+    # A step that inherits a state takes the ratio nearest to 1 so far.
+    assert ratios(counts, many, matters) == (1.0, 1 / 16, 5 / 32, 1 / 2, 1 / 2)
+    of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
+    assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
