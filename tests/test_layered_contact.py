@@ -15,11 +15,8 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical import (
-    ContactAtWindowEdge,
     discretise,
-    plan,
     solve_discretised,
 )
 
@@ -38,19 +35,6 @@ def pressed(lower: Body, upper: Body | None = None, **load: float) -> Scene:
     upper = upper or Body(material=RIGID)
     ball = Paraboloid(radius=RADIUS, material=upper.material, layers=upper.layers)
     return Scene(indenter=ball, body=lower, loading=(LoadStep(**load),))
-
-
-@pytest.mark.parametrize(
-    "lower",
-    [
-        body(material(1e-30), (0.5, material(1.0))),
-        body(material(1.0), (0.5, material(1e30))),
-        body(material(1.0), (0.5, material(1e-9)), (0.5, material(1e9))),
-    ],
-)
-def test_layer_that_is_as_good_as_free_is_refused(lower: Body) -> None:
-    with pytest.raises(UnsupportedScene, match="as good as free or rigid"):
-        plan(pressed(lower, normal_force=0.01))
 
 
 COARSE = SurfaceDiscretisation(cells=(48, 48), tolerance=1e-6)
@@ -114,12 +98,3 @@ def test_chosen_cells_divide_the_spacing_of_a_map_by_the_same_number(shape, wind
         factor = cells[0] // points[0]
         assert list(cells) == list(factor * points)
         assert min(cells) >= 128 > min((factor - 1) * points)
-
-
-def test_a_chosen_window_ends_where_the_friction_map_does():
-    small = scene(PRESS, push(0.2), friction=map_of((20, 20), 2.1 * A))
-    assert discretise(small, COARSE).window == pytest.approx((2.1 * A, 2.1 * A))
-    assert solve_discretised(small, COARSE).steps[0].contact_radius == pytest.approx(A, rel=0.05)
-    smaller = scene(PRESS, push(0.2), friction=map_of((20, 20), 1.9 * A))
-    with pytest.raises(ContactAtWindowEdge, match="friction map"):
-        solve_discretised(smaller, COARSE)

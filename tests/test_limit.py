@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from math import exp, pi
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -39,7 +38,6 @@ from verification.closed_forms.huber_stress import (
 )
 from verification.closed_forms.line_contact import CylinderContact
 
-ROOT = Path(__file__).resolve().parents[1]
 E = 210e9
 R = 10e-3
 W = 50.0
@@ -252,11 +250,9 @@ def search_root(law: Any) -> tuple[Any, int]:
 @pytest.mark.parametrize(
     ("law", "exact", "solves"),
     [
-        (lambda f: 0.5 * f ** (1 / 3), 8.0, 2),
         (lambda f: 2.0 * f ** (1 / 3), 0.125, 2),
         (lambda f: f ** (1 / 3), 1.0, 2),  # the given load is critical
         (lambda f: 0.5 * f**0.5, 4.0, 3),
-        (lambda f: 0.05 * f, 20.0, 4),
         (lambda f: 0.25 * f**0.2 + f / 64, 32.0, 6),
         (lambda f: max(0.3 * f ** (1 / 3), 0.002 * f**2), 500**0.5, 8),  # another place takes over
         (lambda f: f - 5.0, 6.0, 10),  # compression at small loads

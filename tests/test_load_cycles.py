@@ -4,11 +4,9 @@ from itertools import combinations
 from math import cos, pi, sin, sqrt
 
 import contact_scenes
-import coupled_scenes
 import numpy as np
 import pytest
 from contact_scenes import (
-    LIMIT,
     LOAD,
     MU,
     PRESS,
@@ -173,23 +171,3 @@ def test_the_tension_of_a_loop_is_that_along_its_force():
     for cycle in found:
         pulled = cycle.surface_tension > 0
         assert np.array_equal(cycle.ruiz_f2 > 0, pulled & (cycle.ruiz_f1 > 0))
-
-
-@pytest.mark.parametrize(
-    "loading",
-    [
-        (PRESS, {"normal_force": 0.5 * LOAD}, PRESS),
-        (PRESS, *({"torque": x * LIMIT * A} for x in (0.2, -0.2, 0.2))),
-        # The force is then a sum of shear, with its round-off.
-        ({**PRESS, **slide(0)}, *({"twist": x * 1e-3} for x in (1, -1, 1))),
-    ],
-    ids=["load", "torque", "twist without a shift"],
-)
-def test_without_a_change_of_force_tension_has_no_direction(loading):
-    described = coupled_scenes.scene(*({**step, "increments": 2} for step in loading))
-    cycles = fretting_cycles(solve(described, grid(24), TOLERANCE))
-    assert cycles
-    for cycle in cycles:
-        assert cycle.surface_tension is None
-        assert cycle.ruiz_f2 is None
-        assert np.max(cycle.ruiz_f1) > 0

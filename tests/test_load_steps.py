@@ -13,7 +13,6 @@ from contact_scene import (
     HeightMap,
     IsotropicMaterial,
     LoadStep,
-    Problem,
     ScalarControl,
     Scene,
     SceneError,
@@ -34,12 +33,6 @@ def scene(*steps: dict[str, Any], mu: float | None = 0.1) -> Scene:
         friction=None if mu is None else CoulombFriction(coefficient=mu),
         loading=tuple(LoadStep(**step) for step in steps),
     )
-
-
-def problems(*steps: dict[str, Any], mu: float | None = 0.1) -> tuple[Problem, ...]:
-    with pytest.raises(SceneError) as caught:
-        scene(*steps, mu=mu)
-    return caught.value.problems
 
 
 def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
@@ -74,65 +67,6 @@ def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
         VectorControl(DISPLACEMENT, (1e-6, -1e-6), (0.0, 0.0)),
         VectorControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
     ]
-
-
-@pytest.mark.parametrize(
-    ("steps", "key"),
-    [
-        ([{"normal_force": 1e3, "tangential_force": (101.0, 0)}], "loading[1].tangential_force"),
-        ([{"normal_force": 1e3}, {"tangential_force": (80, 61)}], "loading[2].tangential_force"),
-        (
-            [{"normal_force": 1e3}, {"tangential_force": (90, 0)}, {"normal_force": 800}],
-            "loading[3].normal_force",
-        ),
-        (
-            [{"approach": 1e-6}, {"tangential_force": (500, 0)}, {"normal_force": 1e3}],
-            "loading[3].normal_force",
-        ),
-    ],
-)
-def test_whatever_makes_the_force_exceed_the_limit_is_named(
-    steps: list[dict[str, Any]], key: str
-) -> None:
-    assert [problem.key for problem in problems(*steps)] == [key]
-
-
-@pytest.mark.parametrize(
-    "steps",
-    [
-        [{"normal_force": 1e3}, {"tangential_force": (80, 60)}],
-        [{"normal_force": 1e3}, {"tangential_force": (100 * (1 + 1e-13), 0)}],
-        [{"normal_force": 1e3}, {"tangential_shift": (1.0, 0)}, {"tangential_shift": (2.0, 0)}],
-        [{"normal_force": 1e3}, {"tangential_force": (99.99, 0)}, {"tangential_force": (0, 0)}],
-        [{"approach": 1e-6}, {"tangential_force": (1e6, 0)}],  # its normal force comes out later
-        [{"normal_force": 1e3, "tangential_force": (90, 0)}, {"normal_force": 2e3}],
-    ],
-)
-def test_loads_up_to_the_limit_and_shifts_of_any_size_are_allowed(
-    steps: list[dict[str, Any]],
-) -> None:
-    assert len(scene(*steps).loading) == len(steps)
-
-
-@pytest.mark.parametrize("force", [100.0, 100.0 * (1 - 1e-10)])
-def test_no_step_leaves_from_the_friction_limit(force: float) -> None:
-    (problem,) = problems(
-        {"normal_force": 1e3}, {"tangential_force": (force, 0)}, {"normal_force": 2e3}
-    )
-    assert problem.key == "loading[2].tangential_force"
-    assert "further step" in problem.message
-
-
-def test_a_frictionless_contact_takes_no_tangential_load() -> None:
-    found = problems(
-        {"normal_force": 1.0},
-        {"tangential_force": (1.0, 0.0)},
-        {"tangential_shift": (1e-6, 0.0)},
-        {"tangential_force": (0.0, 0.0), "torque": 0.0},
-        mu=None,
-    )
-    assert [p.key for p in found] == ["loading[2].tangential_force", "loading[3].tangential_shift"]
-    assert all("frictionless" in p.message for p in found)
 
 
 def test_rotations_that_no_step_has_named_are_held_at_zero() -> None:

@@ -100,31 +100,6 @@ DEAR = {
 }
 
 
-def marks(name: str) -> list[pytest.MarkDecorator]:
-    """Of one scene: dear ones wait for the night."""
-    return [pytest.mark.slow] * (name in DEAR)
-
-
-def peak(text: str, folder: Path, *options: str) -> tuple[SceneFile, float]:
-    """The scene, and the largest memory [bytes] of a run: solves, coarse solves, files, figures."""
-    (folder / "scene.toml").write_text(text, encoding="utf-8")
-    ended = run(folder, "run", "scene.toml", "-o", "out", *options)
-    assert ended.code == 0, ended.said
-    return read_scene_file(folder / "scene.toml"), ended.memory * 2**20
-
-
-@pytest.mark.parametrize(
-    "text",
-    [pytest.param(text, id=name, marks=marks(name)) for name, text in (SCENES | DEAR).items()],
-)
-def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
-    contents, memory = peak(text, tmp_path)
-    fineness = contents.semi_analytical
-    decided = plan(contents.scene, fineness.path_accuracy, fineness.edge)
-    grid = discretise(contents.scene, fineness)
-    assert estimated_bytes(grid, decided) == pytest.approx(memory, rel=WITHIN)
-
-
 def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(scene(256), encoding="utf-8")
@@ -132,9 +107,6 @@ def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path)
     grid, decided = discretise(contents.scene, contents.semi_analytical), plan(contents.scene)
     short, long = (estimated_bytes(grid, decided.cut_into([n])) for n in (1000, 2000))
     assert 0 < long - short < 1e6
-
-
-# ---- radial solver
 
 
 RADIAL_SCENE = """
@@ -178,18 +150,34 @@ RADIAL_DEAR = {
 }
 
 
+def estimated(contents: SceneFile, solver: str) -> int:
+    if solver == "radial":
+        return radial_estimated_bytes(contents.scene, radial.plan(contents.scene))
+    fineness = contents.semi_analytical
+    decided = plan(contents.scene, fineness.path_accuracy, fineness.edge)
+    return estimated_bytes(discretise(contents.scene, fineness), decided)
+
+
+QUICK = {"semi-analytical": SCENES, "radial": RADIAL_SCENES}
+DEAR_ONES = {"semi-analytical": DEAR, "radial": RADIAL_DEAR}
+
+
 @pytest.mark.parametrize(
-    "text",
+    ("solver", "text"),
     [
-        pytest.param(text, id=name, marks=[pytest.mark.slow] * (name in RADIAL_DEAR))
-        for name, text in (RADIAL_SCENES | RADIAL_DEAR).items()
+        pytest.param(solver, text, id=f"{name}, {solver}", marks=marks)
+        for all_scenes, marks in ((QUICK, ()), (DEAR_ONES, pytest.mark.slow))
+        for solver, scenes in all_scenes.items()
+        for name, text in scenes.items()
     ],
 )
-def test_radial_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
-    contents, memory = peak(text, tmp_path, "--solver", "radial")
-    described = contents.scene
-    needed = radial_estimated_bytes(described, radial.plan(described))
-    assert needed == pytest.approx(memory, rel=WITHIN)
+def test_estimated_memory_is_the_peak_of_the_run(solver: str, text: str, tmp_path: Path) -> None:
+    """Of solves, coarse solves, files and figures."""
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    ended = run(tmp_path, "run", "scene.toml", "-o", "out", "--solver", solver)
+    assert ended.code == 0, ended.said
+    found = estimated(read_scene_file(tmp_path / "scene.toml"), solver)
+    assert found == pytest.approx(ended.memory * 2**20, rel=WITHIN)
 
 
 def test_what_does_not_fit_is_refused_before_it_is_begun(

@@ -49,28 +49,41 @@ def judged_at(level: Level) -> frozenset[Place]:
     )
 
 
-def judged(errors: np.ndarray, expected: float) -> Verdict:
-    """The verdict on levels with these errors, one run each or several (sizes, runs)."""
-    several = np.reshape(errors, (len(SIZES), -1))
-    results = {
-        f"{n}, {k}": SimpleNamespace(error=error)
-        for n, row in enumerate(several)
-        for k, error in enumerate(row)
-    }
+def verdict_on(
+    results: dict[str, Any],
+    of: Followed,
+    evaluate: Any,
+    expected: float,
+    *not_yet: Any,
+    **more: Any,
+) -> Verdict:
+    """The verdict on the order of results by label, which have a size each."""
     runs: Any = tuple(
-        SimpleNamespace(label=label, solver=Solver.CELLS, spacing=SIZES[int(label.split(",")[0])])
-        for label in results
+        SimpleNamespace(label=label, solver=Solver.CELLS, spacing=result.size)
+        for label, result in results.items()
     )
     order = Order(
         "order",
-        Followed.SHIFT,
+        of,
         "a planted value",
         tuple(results),
-        lambda result: result.error,
+        evaluate,
         expected,
         "planted",
+        *not_yet,
+        **more,
     )
     return judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
+
+
+def judged(errors: np.ndarray, expected: float) -> Verdict:
+    """The verdict on levels with these errors, one run each or several (sizes, runs)."""
+    results = {
+        f"{n}, {k}": SimpleNamespace(error=error, size=SIZES[n])
+        for n, row in enumerate(np.reshape(errors, (len(SIZES), -1)))
+        for k, error in enumerate(row)
+    }
+    return verdict_on(results, Followed.SHIFT, lambda result: result.error, expected)
 
 
 @pytest.mark.parametrize("place", list(product(NAMED, MESHED, [Refinement.MESH])), ids=str)
@@ -169,22 +182,16 @@ def judged_change(errors, expected, not_yet=None, sizes=HALVED, apart=1):
         f"level {n}": SimpleNamespace(size=size, value=LIMIT + error)
         for n, (size, error) in enumerate(zip(sizes, errors, strict=True))
     }
-    order = Order(
-        "order",
+    return verdict_on(
+        results,
         Followed.APPROACH,
-        "a planted value",
-        tuple(results),
         lambda one, other: abs(one.value - other.value),
         expected,
-        "planted",
         not_yet,
         refined=Refinement.INCREMENTS,
         size=lambda result: result.size,
         apart=apart,
     )
-    runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
-    case = Case("planted", "planted", "", runs, (), orders=(order,))
-    return judge_order(order, case, results)
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0])

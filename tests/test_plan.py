@@ -1,13 +1,11 @@
 """Tests of the plan of a run: required physical effects, and increments of the load steps."""
 
 from dataclasses import replace
-from math import sqrt
 
 import numpy as np
 import pytest
 from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
-from coupled_scenes import bulk, coated, press
-from coupled_scenes import push as coupled_push
+from coupled_scenes import bulk, coated
 from coupled_scenes import scene as coupled_scene
 
 import fem_reference
@@ -19,45 +17,7 @@ from semi_analytical import Coupling, all_effects, plan
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
-ONE = False
-MANY = True
 LEAST = 1e-3
-
-
-@pytest.mark.parametrize(
-    ("loading", "cut"),
-    [
-        pytest.param((PRESS, push(0.9), push(-0.9)), (ONE, ONE, ONE), id="reversal"),
-        pytest.param((PRESS, push(0.5), push(0, 0.5)), (ONE, ONE, MANY), id="turning"),
-        pytest.param((PRESS, slide(1), slide(-1, 1e-16)), (ONE, ONE, ONE), id="round-off"),
-        pytest.param((PRESS, slide(1), push(0, 0.5)), (ONE, ONE, MANY), id="over and turning"),
-        pytest.param(
-            (PRESS, push(0.3), {"normal_force": 500}), (ONE, ONE, MANY), id="unloading under shear"
-        ),
-        pytest.param(
-            (PRESS, {"normal_force": 500}, push(0.3)), (ONE, ONE, ONE), id="unloading before shear"
-        ),
-        pytest.param(
-            (PRESS, push(0.9), {"normal_force": 2 * PRESS["normal_force"], **push(1.95)}),
-            (ONE, ONE, MANY),
-            id="growing by more than µW",
-        ),
-    ],
-)
-def test_steps_are_cut_only_where_the_path_matters(loading, cut):
-    assert tuple(count > 1 for count in plan(scene(*loading)).increments) == cut
-
-
-@pytest.mark.parametrize("of", [fem_reference.plan, radial.plan])
-def test_a_push_is_cut_by_its_change_over_the_friction_limit(of):
-    steps = (coupled_push(part, increments=None) for part in (0.6, 0.5))
-    assert of(coupled_scene(press(), *steps)).increments[1:] == (12, 2)
-
-
-@pytest.mark.parametrize("of", [fem_reference.plan, radial.plan])
-def test_a_strain_is_cut_where_friction_meets_it(of):
-    pressed, strained = of(scene(PRESS, {"bulk_strain": (1e-5, 1e-5, 0.0)})).increments
-    assert pressed == strained > 1
 
 
 def test_a_load_under_shear_is_cut_alike_there_and_back():
@@ -65,20 +25,6 @@ def test_a_load_under_shear_is_cut_alike_there_and_back():
     whole = {**PRESS, **push(0.9)}
     *_, back, there = plan(scene(PRESS, push(0.9), half, whole)).increments
     assert back == there > 1
-
-
-@pytest.mark.parametrize(
-    ("loading", "coefficient"),
-    [
-        ((push(0.3), {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}), 0.123),
-        ((push(0.9), push(0.0, 0.9), push(-0.9)), 0.9 * 0.25 * 2 * sqrt(2) * 0.9 * sqrt(2)),
-    ],
-    ids=["less pressure", "turned twice"],
-)
-def test_increments_follow_the_stated_rules(loading, coefficient) -> None:
-    """By the friction limit of the smaller load, and with all turns of the history."""
-    counts = plan(scene(PRESS, *loading), 1e-3).increments
-    assert counts[-1] == pytest.approx(1e3 * coefficient, abs=1.5)
 
 
 @pytest.mark.parametrize("of", [plan, fem_reference.plan, radial.plan])
@@ -118,23 +64,6 @@ def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
         assert of(layered) == of(alone) != of(bare)
 
 
-@pytest.mark.parametrize(
-    ("indenter", "body"),
-    [
-        (RIGID_BALL, steel(0.5)),
-        (paraboloid(steel(0.5, 1e9)), steel(0.5)),
-        (paraboloid(steel(0.3, 2e5 * 1e6)), steel(0.3, 200e9)),
-        # (1 - 2 nu) / G equal, though both nu and G differ
-        (paraboloid(steel(0.2, 1.2 * 0.6 / (1.3 * 0.4) * 1e9)), steel(0.3, 1e9)),
-    ],
-    ids=["rigid on incompressible", "both incompressible", "same in other units", "same ratio"],
-)
-def test_bodies_with_equal_ratios_do_not_couple(indenter, body):
-    decided = plan(scene(PRESS, push(0.5), indenter=indenter, body=body))
-    assert decided.shear
-    assert decided.coupling is Coupling.NONE
-
-
 DEFAULT = 1e-2
 
 
@@ -156,20 +85,11 @@ TURNING = scene(PRESS, push(0.5), push(0, 0.5))
 OBLIQUE = scene({**PRESS, **slide(0.3)})
 
 
-def test_explicit_increments_win_over_every_law():
-    assert counts(coupled_scene(press(increments=2), free(0.6, increments=3))) == (2, 3)
-    assert counts(scene(PRESS, push(0.5, increments=7))) == (1, 7)
-
-
 @pytest.mark.parametrize("described", [WEAK, STRONG, PUSHED, COATED, TURNING, OBLIQUE])
 def test_more_accuracy_takes_more_increments(described):
     fine, coarse = counts(described, 1e-3), counts(described, 1e-1)
     assert all(f >= c for f, c in zip(fine, coarse, strict=True))
     assert sum(fine) > sum(coarse)
-
-
-def test_a_load_that_goes_straight_between_alike_bodies_takes_one():
-    assert counts(scene(PRESS, push(0.9), push(-0.9), slide(1.0))) == (1, 1, 1, 1)
 
 
 def test_forcing_says_what_it_forces():

@@ -24,7 +24,6 @@ from contact_scene import (
 from contact_scene.solver_errors import ContactAtZoneEdge
 from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
-from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_friction import solve_increment
 from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
@@ -41,12 +40,7 @@ LOAD = 4 / 3e6
 FRICTION = 0.3
 RADIUS = 0.01
 LIMIT = LOAD * FRICTION
-TORQUE = 3 * math.pi / 16 * LIMIT * RADIUS  # at which all slips, of bodies that do not couple
 PRESS = LoadStep(normal_force=LOAD, increments=4)
-ALIKE: dict[str, Any] = {
-    "indenter": Paraboloid(radius=1.0, material=SOFT),
-    "body": Body(material=SOFT),
-}
 
 
 def scene(*steps: LoadStep, **more: Any) -> Scene:
@@ -67,36 +61,10 @@ def push(x: float, y: float, increments: int = 3) -> LoadStep:
     return LoadStep(tangential_force=(x * LIMIT, y * LIMIT), increments=increments)
 
 
-def twist(share: float, increments: int = 3) -> LoadStep:
-    return LoadStep(torque=share * TORQUE, increments=increments)
-
-
 def rough(asked: Scene, **how: Any) -> radial.Result:
     """On half the rings, which obey the same laws."""
     plan = how.pop("plan", None) or radial.plan(asked)
     return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
-
-
-CALLED_FOR = {
-    "pressed": ((), {}, None),
-    "twisted, alike": ((twist(0.4),), ALIKE, None),
-    "twisted, then pressed": ((twist(0.4), LoadStep(normal_force=2 * LOAD)), ALIKE, RingAngles.ONE),
-    "twisted, coupled": ((twist(0.4),), {}, RingAngles.ONE),
-    "pushed": ((push(0.4, 0.0), push(-0.4, 0.0)), {}, RingAngles.HALF),
-    "pushed, free to turn": (
-        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),),
-        {},
-        RingAngles.HALF,
-    ),
-    "pushed and twisted": ((push(0.4, 0.0), twist(0.1)), ALIKE, RingAngles.WHOLE),
-    "turning": ((push(0.4, 0.0), push(0.0, 0.4)), {}, RingAngles.WHOLE),
-}
-
-
-@pytest.mark.parametrize("name", CALLED_FOR)
-def test_angles_are_those_that_loads_call_for(name: str) -> None:
-    steps, bodies, circle = CALLED_FOR[name]
-    assert radial.plan(scene(*steps, **bodies)).circle is circle
 
 
 def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
@@ -140,93 +108,51 @@ def test_a_vector_that_is_the_same_everywhere_remains_so_between_points(
 TOLERANCE = 1e-9
 RING_LOAD = 4 / 3  # of a ball with R = 1 on E* = 1: a = 1
 LAW = CoulombFriction(coefficient=FRICTION)
-RING_LIMIT = RING_LOAD * FRICTION
-
-
-def points_on(
-    indenter: Any, body: Body, radii: np.ndarray, count: int, circle: RingAngles = RingAngles.HALF
-) -> ContactPoints:
-    """Below a paraboloid with R = 1."""
-    ball = Paraboloid(radius=1.0, material=indenter)
-    scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
-    largest = float(radii[-1])
-    nodes = tuple(radii / largest)
-    energies = ring_compliance(Coupling.of(scene), nodes, largest, count)
-    rule, weights = np.polynomial.legendre.leggauss(4)
-    length = np.diff(radii)[:, None]
-    r = radii[:-1, None] + length * (1 + rule) / 2
-    areas = []
-    for field in (r, r**2, r**3 / 2):
-        part = field * length * weights / 2
-        inner, outer = part @ ((1 - rule) / 2), part @ ((1 + rule) / 2)
-        areas.append(np.append(inner, 0.0) + np.append(0.0, outer))
-    return ContactPoints(radii, energies, *areas, circle)
-
-
-def rings(count: int, radius: float) -> np.ndarray:
-    """Evenly to the edge of the contact, graded there, and three beyond."""
-    inside = np.arange(count) / count
-    graded = 1 - 0.5 ** np.arange(1, 5) / count
-    return radius * np.concatenate([inside, graded, 1 + np.arange(4) / count])
-
-
-COUNT = 32
-RADII = rings(COUNT, 1.0)
 
 
 @cache
 def alike() -> ContactPoints:
     """Two bodies of one material without lateral contraction: uncoupled, and slip along shear."""
     material = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.0)
-    return points_on(material, Body(material=material), RADII, 4)
-
-
-def pushed(share: float) -> Loads:
-    """By a share of µW."""
-    return loaded(RING_LOAD, share * RING_LIMIT)
-
-
-def loaded(force: float, drag: float) -> Loads:
-    return Loads((drag, None, None, force), (None, 0.0, 0.0, None))
-
-
-def led(approach: float | None, shift: float, force: float | None = None) -> Loads:
-    return Loads((None, None, None, force), (shift, 0.0, 0.0, approach))
+    ball = Paraboloid(radius=1.0, material=material)
+    asked = scene(indenter=ball, body=Body(material=material))
+    return create_points(Coupling.of(asked), ball, [1.0], 16, 4, RingAngles.HALF, FRICTION)
 
 
 @cache
-def after(*shares: float) -> PointState:
-    """Pressed at once, then pushed to shares of µW, one after another."""
-    before = after(*shares[:-1]) if shares else None
-    return solve_increment(alike(), LAW, pushed([0.0, *shares][-1]), before, TOLERANCE)
+def pressed() -> PointState:
+    loads = Loads((0.0, None, None, RING_LOAD), (None, 0.0, 0.0, None))
+    return solve_increment(alike(), LAW, loads, None, TOLERANCE)
 
 
 @pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
 def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int) -> None:
-    points, nodes, count = alike(), len(RADII), alike().count
+    points = alike()
     cos, sin = np.cos(harmonic * points.angles), np.sin(harmonic * points.angles)
     ways = np.array([cos, sin, cos])
-    tractions = np.zeros((3, nodes, count))
-    tractions[way] = RADII[:, None] * ways[way]
-    moved = (points.compliance @ tractions.ravel()).reshape(3, nodes, count)
-    exact = points.energies[harmonic, :, way] @ RADII
-    exact = 2 * math.pi / count * exact[..., None] * ways[:, None]
+    tractions = np.zeros((3, len(points.radii), points.count))
+    tractions[way] = points.radii[:, None] * ways[way]
+    moved = (points.compliance @ tractions.ravel()).reshape(tractions.shape)
+    exact = points.energies[harmonic, :, way] @ points.radii
+    exact = 2 * math.pi / points.count * exact[..., None] * ways[:, None]
     assert_allclose(moved, exact, atol=1e-14)
 
 
 def test_a_first_guess_has_pressure_where_the_surfaces_overlap() -> None:
-    *_, p = RingProblem.of(alike(), LAW, led(0.5, 0.0), None).guess_closed_gap()[:-4].reshape(3, -1)
+    led = Loads((None, None, None, None), (0.0, 0.0, 0.0, 0.5))
+    *_, p = RingProblem.of(alike(), LAW, led, None).guess_closed_gap()[:-4].reshape(3, -1)
     assert np.array_equal(p > 0, alike().gap_areas < 0.5 * alike().areas)
 
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:
+    loads = Loads((0.0, None, None, 4 * RING_LOAD), (None, 0.0, 0.0, None))
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
-        solve_increment(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)
+        solve_increment(alike(), LAW, loads, None, TOLERANCE)
 
 
 def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:
     points = alike()
     still = Loads((None, None, None, RING_LOAD), (0.0, 0.0, 0.0, None))
     turned = solve_increment(points.axisymmetric, LAW, still, None, TOLERANCE).repeat_angles(points)
-    assert_allclose(turned.tractions, after().tractions, atol=1e-7)
-    assert_allclose(turned.moved, after().moved, atol=1e-9)
+    assert_allclose(turned.tractions, pressed().tractions, atol=1e-7)
+    assert_allclose(turned.moved, pressed().moved, atol=1e-9)

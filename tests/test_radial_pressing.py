@@ -17,8 +17,6 @@ from contact_scene import (
     RIGID,
     Body,
     Cone,
-    CoulombFriction,
-    Ellipsoid,
     FlatPunch,
     IsotropicMaterial,
     Layer,
@@ -144,28 +142,3 @@ def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> No
 
 def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
     return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
-
-
-RUB = CoulombFriction(coefficient=0.1)
-REFUSED = {
-    "not axisymmetric": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
-    "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
-    "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
-    "separate within the contact": {
-        "indenter": FlatPunch(radius=1e-3, material=RIGID),
-        "body": coated(1e3, 5e-5),
-        "loading": (LoadStep(normal_force=1e-6),),
-    },
-    "polynomials": {"body": coated(0.01, 1e-7), "loading": (LoadStep(normal_force=1e-3),)},
-}
-
-
-@pytest.mark.parametrize("reason", REFUSED)
-def test_what_is_no_pressing_of_revolution_is_refused_by_name(reason: str) -> None:
-    usual = {
-        "indenter": BALL,
-        "body": Body(material=STEEL),
-        "loading": (LoadStep(normal_force=1e3),),
-    }
-    with pytest.raises(UnsupportedScene, match=reason):
-        radial.solve(Scene(**(usual | REFUSED[reason])))

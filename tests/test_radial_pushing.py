@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
-import numpy as np
 import pytest
 from contact_scenes import RIGID_BALL, YOUNG, A, steel
 
@@ -14,7 +12,6 @@ from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
-    FlatPunch,
     IsotropicMaterial,
     Layer,
     LoadStep,
@@ -39,22 +36,6 @@ def scene(*steps: LoadStep, friction: float = FRICTION) -> Scene:
         friction=CoulombFriction(coefficient=friction),
         loading=steps,
     )
-
-
-VALUES = np.linspace(0.1, 0.2, 16).reshape(4, 4)
-MAP = CoulombFriction.model_validate({"coefficient": {"map": VALUES, "spacing": 1.0}})
-REFUSED: dict[str, dict[str, Any]] = {
-    "map": {"friction": MAP},
-    "rim": {"indenter": FlatPunch(radius=RADIUS, material=RIGID)},
-    "moment or a tilt": {"loading": (PRESS, LoadStep(tilt=(1e-4, 0.0)), PUSH)},
-}
-
-
-@pytest.mark.parametrize("reason", REFUSED)
-def test_what_points_do_not_have_is_refused_by_name(reason: str) -> None:
-    asked = scene(PRESS, LoadStep(tangential_shift=(1e-6, 0.0))).model_copy(update=REFUSED[reason])
-    with pytest.raises(UnsupportedScene, match=reason):
-        radial.plan(asked)
 
 
 def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name() -> None:

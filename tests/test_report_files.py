@@ -167,13 +167,6 @@ def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) ->
     assert not packed.exists()
 
 
-def test_a_packed_record_is_set_aside_like_any_other(tmp_path: Path) -> None:
-    (tmp_path / PACKED).write_bytes(b"kept")
-    set_aside_report(tmp_path)
-    assert not (tmp_path / PACKED).exists()
-    assert (tmp_path / EARLIER / PACKED).read_bytes() == b"kept"
-
-
 def test_a_packed_record_that_is_damaged_or_too_large_is_refused_in_words(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from report_examples import (
-    STEEL,
     case,
     chart,
     report_of,
@@ -16,15 +15,6 @@ from report_examples import (
     verdict,
 )
 
-from contact_scene import (
-    Body,
-    CoulombFriction,
-    IsotropicMaterial,
-    Layer,
-    LoadStep,
-    Paraboloid,
-    Scene,
-)
 from verification.exhibits.chart import Table
 from verification.judging.outcome import (
     CaseOutcome,
@@ -32,7 +22,6 @@ from verification.judging.outcome import (
     Verdict,
     error_text,
 )
-from verification.judging.tested_parameters import dimensionless_parameters
 from verification.report.file_names import SHEETS
 from verification.report.page import MAX_CHARTS, cases_by_physics, render_page, render_sheets
 from verification.report.summary_text import claims_line, features, power_text
@@ -130,36 +119,6 @@ def test_a_quick_page_stays_small() -> None:
 
 
 # ---- table of validity
-
-
-COATING = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
-
-
-def result_of(*rows: tuple[float, float, tuple[float, float] | None]) -> Any:
-    """Increments of a contact radius, a normal force and a tangential force."""
-    names = ("contact_radius", "normal_force", "tangential_force")
-    increments = [SimpleNamespace(**dict(zip(names, row, strict=True))) for row in rows]
-    return SimpleNamespace(increments=increments)
-
-
-def coated(body: Body, friction: CoulombFriction | None) -> Scene:
-    ball = Paraboloid(radius=18e-3, material=STEEL)
-    return Scene(indenter=ball, body=body, friction=friction, loading=(LoadStep(normal_force=1e3),))
-
-
-def test_parameters_are_those_of_the_largest_contact_and_the_largest_tangential_force() -> None:
-    layers = (Layer(thickness=1e-4, material=COATING),)
-    scene = coated(Body(material=STEEL, layers=layers), CoulombFriction(coefficient=0.2))
-    rows = [(1e-4, 50.0, None), (4e-4, 1e3, (90.0, 120.0)), (2e-4, 500.0, (10.0, 0.0))]
-    empty = (0.0, 0.0, (0.0, 0.0))  # separated
-    result = result_of(*rows, empty)
-    assert dimensionless_parameters(scene, result) == {
-        "h/a": (0.25,),
-        "E1/E2": (2.0,),
-        "ν": (0.2, 0.3),
-        "µ": (0.2,),
-        "T/(µW)": (0.75,),
-    }
 
 
 def judged_at(

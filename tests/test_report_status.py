@@ -1,9 +1,5 @@
 """Tests of the status of a report: failures, contradictions, and studies that it shows."""
 
-import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -23,8 +19,6 @@ from verification.judging.outcome import (
     Status,
     verdict_order_text,
 )
-from verification.report.file_names import RECORD
-from verification.report.files import write_report
 from verification.report.page import render_page
 from verification.report.summary_text import (
     failure_lines,
@@ -32,45 +26,9 @@ from verification.report.summary_text import (
     render_summary,
 )
 from verification.running.provenance import Provenance
-from verification.running.report_record import load_report
 from verification.running.study import LostCase, StudyRecord
 
 OTHER = made_by().model_copy(update={"sources": "those", "commit": "abc1234" + 33 * "0"})
-
-
-def first_verdict(report: dict[str, Any]) -> dict[str, Any]:
-    verdict: dict[str, Any] = report["cases"][0]["verdicts"][0]
-    return verdict
-
-
-FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
-    "no value": (lambda r: first_verdict(r).update(value=None, error=None), "status is pass"),
-    "vague order that passes": (
-        lambda r: first_verdict(r).update(tolerance_kind="order", interval=0.4),
-        "its status is pass",
-    ),
-    "case twice": (lambda r: r["cases"].append(r["cases"][0]), "a case twice: one"),
-    "run of a verdict": (lambda r: first_verdict(r).update(runs=["x"]), "the run 'x' not at all"),
-    "run as planned": (
-        lambda r: r["cases"][0]["runs"][0].update(planned="y"),
-        "the run 'y' not at all",
-    ),
-}
-
-
-def edited(record: Path, edit: Callable[[dict[str, Any]], object]) -> None:
-    content = json.loads(record.read_text(encoding="utf-8"))
-    edit(content)
-    record.write_text(json.dumps(content), encoding="utf-8")
-
-
-@pytest.mark.parametrize("forgery", FORGERIES)
-def test_report_that_contradicts_itself_is_refused(tmp_path: Path, forgery: str) -> None:
-    edit, said = FORGERIES[forgery]
-    write_report(three_cases(), tmp_path)
-    edited(tmp_path / RECORD, edit)
-    with pytest.raises(ValueError, match=said):
-        load_report(tmp_path / RECORD)
 
 
 @pytest.mark.parametrize(

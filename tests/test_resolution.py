@@ -2,12 +2,10 @@
 
 import json
 import re
-from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 import pytest
-from command import slipstick
 from contact_scenes import APPROACH, INDENTERS, PRESS, RADIUS, A, bump, grid, push, scene, steel
 from scipy.stats import norm
 
@@ -68,15 +66,6 @@ def test_a_history_that_unloads_to_next_to_nothing_is_not_refused(left):
     assert first == third
     assert second.contact < 1
     assert first.contact > 8
-
-
-def test_the_command_says_so_with_exit_code_3_and_writes_nothing(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    coarse = ("--set", "semi_analytical.window=[1,1]", "--set", "semi_analytical.cells=[32,32]")
-    assert slipstick("run", "scenes/hertz.toml", "-o", tmp_path / "out", *coarse) == 3
-    assert "--set semi_analytical.window=[0.0008" in capfd.readouterr().err
-    assert not (tmp_path / "out").exists()
 
 
 # ---- waves between cells

@@ -7,23 +7,16 @@ import fem_reference
 import radial
 import semi_analytical
 from contact_results.cycles import fretting_cycles
-from contact_results.key_numbers import cycle_columns
-from contact_results.result_report import ResultReport
 from contact_scene import (
     FiniteElementDiscretisation,
     IsotropicMaterial,
     RadialDiscretisation,
     Scene,
 )
-from contact_scene.checks.plausibility import unlikely_numbers
 from contact_scene.quantities.increment import numbers
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import plan
 
-STIFFNESS = 179.167756e6  # of the contact [N/m]
-# half ranges of the loop
-SHIFT = 0.626373e-6
-FORCE = 87.362685
 TOLERANCE = 1e-10
 SAME = IsotropicMaterial(young_modulus=461.538461538e9, poisson_ratio=0.0)
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -62,12 +55,6 @@ def steps(shifts):
     return [{"tangential_shift": (float(shift), 0.0), "increments": 4} for shift in shifts]
 
 
-def loop(stiffness, press):
-    largest = SHIFT + (FORCE / stiffness if stiffness else 0.0)
-    rig = {"tangential_stiffness": stiffness} if stiffness else None
-    return scene(press, *steps((largest, -largest, largest)), rig=rig)
-
-
 @SOLVERS
 @pytest.mark.parametrize("body", [SAME, STEEL])
 def test_a_contact_below_a_normal_spring_is_the_contact_at_its_own_approach(solve, body):
@@ -96,17 +83,6 @@ def test_separated_bodies_have_the_position_of_the_actuator():
     assert last.actuator_approach == last.approach == 0
 
 
-def test_a_rig_without_springs_is_refused_and_a_very_soft_one_advised_against():
-    press = {"normal_force": "1 kN"}
-    with pytest.raises(ValueError, match="tangential_stiffness or normal_stiffness"):
-        scene(press, rig={})
-    with pytest.raises(ValueError, match=r'a positive stiffness such as "50 N/um"'):
-        scene(press, rig={"normal_stiffness": "5 N"})
-    assert not unlikely_numbers(loop(2e-3 * STIFFNESS, press))
-    (advice,) = unlikely_numbers(loop(5e-4 * STIFFNESS, press))
-    assert "prescribe tangential_force" in advice
-
-
 @pytest.mark.parametrize(
     ("amplitude", "regime", "share"),
     [(1e-10, "stick", 1e-2), (0.6e-6, "partial slip", 0.5), (3e-6, "gross slip", 4.0)],
@@ -124,13 +100,3 @@ def test_the_regime_of_a_loop_follows_its_amplitude(amplitude, regime, share):
     assert first["shift_amplitude"] == pytest.approx(amplitude)
     assert first["energy_ratio"] == pytest.approx(first["gross_slip_share"] / 5)
     assert first["actuator_amplitude"] is None
-
-
-def test_a_cycle_of_torsion_has_no_loop_of_force():
-    turns = ({"twist": turn, "increments": 2} for turn in (1e-3, -1e-3, 1e-3))
-    report = ResultReport.of(on_cells(scene({"normal_force": "1 kN"}, *turns))).with_cycles()
-    (cycle,) = report.cycles
-    assert cycle.numbers["energy_per_cycle"] > 0
-    assert "force_amplitude" not in cycle.numbers
-    (texts,) = zip(*cycle_columns(report).values(), strict=True)
-    assert texts[:2] == ("3–4 (first)", "partial slip")

@@ -76,19 +76,6 @@ def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -
     assert GaussEdge(1.0).radius(r, p + 0.1 * loading_no_node, last, step) == pytest.approx(edge)
 
 
-@pytest.mark.parametrize("unit", [1.0, 1e-9])
-def test_area_of_a_stuck_ring(unit: float) -> None:
-    """Slip inside and outside of it; edges between the rings. In any unit of the shear."""
-    radii = np.arange(40.0)
-    sides = np.zeros(40, np.int8)
-    sides[:11], sides[30:36] = 1, 1
-    bound = np.where(radii < 36, unit, 0.0)
-    shear = np.where(sides != 0, bound, 0.0)[None]
-    area = stick_area(radii, bound, shear, sides != 0, 35.5, HatEdge())
-    assert area == pytest.approx(pi * (29.5**2 - 10.5**2), rel=0.06)
-    assert stick_area(radii, 0 * bound, 0 * shear, sides != 0, 35.5, HatEdge()) == 0
-
-
 @pytest.mark.parametrize("side", [1, -1])
 def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(side: int) -> None:
     """Whichever way it slips; outside, stick reaches the edge of the contact."""
@@ -176,10 +163,3 @@ def test_a_stick_area_does_not_depend_on_the_direction_of_the_shear() -> None:
         beside = way[last - 2 : last + 4]
         for jump in (beside[1:] + beside[:-1]) / 2:
             assert area_of(way + np.pi - jump) == pytest.approx(area, rel=1e-9)
-
-
-def test_all_that_sticks_counts_and_nothing_else() -> None:
-    shear, bound = np.zeros((2, 9, 8)), np.ones((9, 8))
-    for share in (0.0, 1.0):
-        area = point_stick_area(RINGS, shear, bound, np.full((9, 8), share > 0))
-        assert area == pytest.approx(share * np.pi * RINGS[-1] ** 2)

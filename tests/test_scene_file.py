@@ -1,7 +1,6 @@
 """Tests of scene files: units, overrides, tables and files beside them."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,8 +12,6 @@ from contact_scene import (
     FiniteElementDiscretisation,
     FrictionMap,
     HeightMap,
-    IsotropicMaterial,
-    Layer,
     Scene,
     SceneError,
     SurfaceDiscretisation,
@@ -22,20 +19,12 @@ from contact_scene import (
     read_scene_file,
 )
 
-SCENES = Path(__file__).resolve().parents[1] / "scenes"
 SCENE = Path(__file__).resolve().parents[1] / "scenes" / "coated_fretting.toml"
 LONG = 100_000
+# Characters that a terminal does not show, and texts of 100 000 and more of them.
 REFUSED = (
-    *("", "=", "a", "=1", ".=1", "a.=1", ".a=1", "a..b=1", "a[1]=1", "loading[0]=1"),
-    *("loading[-1]=1", "loading[3]=1", "loading[9999999]=1", "loading[٣]=1", "loading=[]"),
-    *("loading={}", "loading[1][1]=2", "loading[1].normal_force[1]=2", "indenter={}", "indenter=1"),
-    *("indenter.radius=nan", "indenter.radius=-inf", "indenter.radius=1e999", "indenter.radius=0"),
-    *("indenter.radius=1\nbody=2", "indenter.radius=1\0", "indenter.radius=\udcff"),
-    *("indenter.radius=\u202e1", "indenter.radius=1;body=2", "indenter.radius=true"),
-    *('"indenter".radius=1', "ｉndenter.radius=1", "__class__=1", "indenter.__class__=1"),
-    *("body.layers={}", "friction=false", "semi_analytical.cells=[1,2,3]", "accuracy=1%"),
-    *("friction.coefficient={map='../x.npy',spacing=1}", "fem_reference.mesh_file='/dev/zero'"),
-    *("friction.coefficient={map='/etc/passwd',spacing=1}", "loading[1].increments=1e3"),
+    *("indenter.radius=1e999", "indenter.radius=1\nbody=2", "indenter.radius=1\0"),
+    *("indenter.radius=\udcff", "indenter.radius=\u202e1"),
     *("title=" + LONG * "a", "title=" + LONG * "[", "title=" + LONG * "{a=", LONG * "a" + "=1"),
     *(LONG * "a." + "a=1", "a" + LONG * "[1]" + "=1", "indenter.radius=" + LONG * "9"),
     *(LONG * "=", LONG * ".", "a" + LONG * ".a", 'title="""' + LONG * "'"),
@@ -49,9 +38,6 @@ def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
     named = [str(problem) for problem in found.value.problems if "--set" in str(problem)]
     assert named
     assert all(line.isprintable() and len(line) < 1000 for line in named)
-
-
-STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
 
 
 @given(documents())
@@ -96,31 +82,6 @@ def test_a_mark_at_the_start_and_foreign_line_ends_do_no_harm(tmp_path: Path) ->
     path = tmp_path / "scene.toml"
     path.write_bytes(b"\xef\xbb\xbf" + IN_SI.replace("\n", "\r\n").encode())
     assert load_scene(path).indenter.material is RIGID
-
-
-@pytest.mark.parametrize(
-    ("override", "attributes", "expected"),
-    [
-        ("semi_analytical.cells=[128,128]", "semi_analytical.cells", (128, 128)),
-        ("semi_analytical.cells[2]=64", "semi_analytical.cells", (256, 64)),
-        (" semi_analytical . tolerance = 1e-6 ", "semi_analytical.tolerance", 1e-6),
-        ("loading[2].increments=5", "scene.loading.1.increments", 5),
-        ("indenter.radius=20 mm", "scene.indenter.radius", 0.02),
-        ('indenter.radius="20 mm"', "scene.indenter.radius", 0.02),
-        ("body.material=rigid", "scene.body.material", RIGID),
-        (
-            "body.layers=[{thickness=1, material={young_modulus=420e9, poisson_ratio=0.3}}]",
-            "scene.body.layers.0",
-            Layer(thickness=1, material=STEEL),
-        ),
-        ("title=a=b", "scene.title", "a=b"),
-    ],
-)
-def test_an_override_replaces_one_key(override: str, attributes: str, expected: Any) -> None:
-    value: Any = read_scene_file(SCENES / "fretting_loop.toml", [override])
-    for name in attributes.split("."):
-        value = value[int(name)] if name.isdigit() else getattr(value, name)
-    assert value == expected
 
 
 def test_files_named_in_a_scene_lie_beside_it(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import slipstick
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_result
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.reading.scene_error import SceneError
 
 ELEMENTS = FiniteElementDiscretisation(elements_per_radius=12)
 SOLVERS = {
@@ -146,17 +145,3 @@ def test_increments_before_first_touch_are_empty(solver: str, returns: bool) -> 
     for number in ("normal_force", "elastic_energy", "dissipated_energy"):
         one, other = getattr(end, number) or 0.0, getattr(last, number) or 0.0
         assert one == pytest.approx(other, rel=1e-6), number
-
-
-@pytest.mark.parametrize(
-    ("step", "problem"),
-    [
-        (LIFT, "tangential_force other than 0"),
-        ({"approach": 0.0, "torque": 1.0}, "torque other than 0"),
-        ({"normal_force": 0.0, "moment": (1.0, 0.0)}, "moment other than 0"),
-        ({"approach": 0.0, "tilt": (1e-3, 0.0)}, "tilted indenter may touch"),
-    ],
-)
-def test_loads_of_separated_bodies_are_refused(step: dict, problem: str) -> None:
-    with pytest.raises(SceneError, match=problem):
-        scene(PRESS, push(0.5), step)

@@ -1,8 +1,5 @@
 """Tests of the stress near the contact edge, where the edge lies inside the cells."""
 
-from dataclasses import replace
-from typing import Any
-
 import numpy as np
 import pytest
 from cell_means import ellipse_means
@@ -117,26 +114,6 @@ def test_an_edge_of_no_root_is_not_seen() -> None:
     for unlike, shear in ((punch, None), (rough, None), (pressure, np.stack([stuck, 0 * stuck]))):
         with pytest.raises(EdgeNotSeen, match=None if shear is None else "stick"):
             near_edge(STACK, grid, unlike, shear)
-
-
-def test_an_edge_fitted_on_one_side_of_a_mirror_plane_alone_stays_a_candidate(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    means = ellipse_means(CELLS, (RADIUS, RADIUS), (23.5, 23.5))
-    grid = SurfaceGrid((CELLS, CELLS), (float(CELLS), float(CELLS)))
-    body = Body(material=IsotropicMaterial(young_modulus=1.0, poisson_ratio=NU))
-    state = LoadedBodies("", body, body, 1, {"x": grid.x, "y": grid.y}, {"pressure": means}, None)
-
-    def partly(*given: Any, **options: Any) -> None:
-        edge = near_edge(*given, **options)
-        below = edge.phi.chosen(edge.phi.y < np.median(edge.phi.y) - 3)
-        raise EdgeNotSeen("seen in part", replace(edge, phi=below))
-
-    monkeypatch.setattr("semi_analytical.stress.near_edge", partly)
-    field = OnCells(state).stress([0.0])
-    assert field.edge is not None
-    assert np.all(field.edge.points.y < -2)
-    assert field.how["edge"] == {"fitted": False, "because": "seen in part"}
 
 
 def test_a_stress_that_is_largest_far_behind_the_contact_is_found() -> None:

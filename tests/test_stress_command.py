@@ -1,14 +1,9 @@
 """Tests of `slipstick stress` at points: cells and rings agree within their errors."""
 
-import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 from command import rows, succeeded
-
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.huber_stress import huber_stress
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -74,45 +69,3 @@ def test_a_table_at_points_is_written_without_a_figure_if_none_is_asked_for(plac
     assert figure.is_file()
     at_points(place, "run", "drawn", *point, "--figures", "none")
     assert not figure.exists()
-
-
-EQUAL = """
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[[body.layers]]
-thickness = "0.1 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[[loading]]
-normal_force = "1 kN"
-[semi_analytical]
-cells = [48, 48]
-"""
-
-
-@pytest.mark.parametrize("source", ["run", "scene"])
-def test_a_layer_equal_to_its_base_has_huber_s_stress_at_its_interface(
-    tmp_path: Path, source: str
-) -> None:
-    """The solver merges such a layer. Shear stress at a fixed depth, with its stated error."""
-    scene = tmp_path / "scene.toml"
-    scene.write_text(EQUAL, encoding="utf-8")
-    options = ("--figures", "none", "-o")
-    if source == "run":
-        succeeded("run", scene, "--no-error", *options, tmp_path / "run", cwd=ROOT)
-        scene = tmp_path / "run"
-    succeeded("stress", scene, *options, tmp_path / "stress", cwd=ROOT)
-    (found,) = (
-        row
-        for row in json.loads((tmp_path / "stress/stress.json").read_text("utf-8"))["maxima"]
-        if (row["region"], row["measure"]) == ("interface 1 above", "interface_shear")
-    )
-    contact = PointContact.under_load(1e3, 18e-3, 210e9 / 0.91)
-    r = np.linspace(0.0, 1.5 * contact.contact_radius, 3001)
-    stress = huber_stress(r, 1e-4, contact.contact_radius, contact.peak_pressure, 0.3)
-    largest = float(np.max(np.abs(stress.shear)))
-    assert found["error"]["error"] < 1e-3 * largest
-    assert abs(found["value"] - largest) <= found["error"]["error"]

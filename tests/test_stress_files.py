@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from stored_mesh import read_mesh
 
-from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import OnCells
@@ -24,7 +23,6 @@ from contact_scene import (
     Layer,
     machine,
 )
-from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.stress import field as stress_field
 
@@ -99,25 +97,6 @@ def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
         np.testing.assert_array_equal(tensor, np.swapaxes(tensor, 1, 2))
         np.testing.assert_allclose(tensor[:, 2, 2], -pressure, atol=0.03)
         np.testing.assert_allclose(tensor[:, "xy".index(axis), 2], -FRICTION * pressure, atol=0.03)
-
-
-def test_a_mesh_comes_back_bit_for_bit(tmp_path: Path) -> None:
-    points = np.random.default_rng(0).normal(size=(6, 3))
-    cells = ("quad", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
-    arrays = {"p [Pa]": points[:, 0] * 1e9, "stress [Pa]": np.arange(54.0).reshape(6, 9)}
-    flags = {"in_stick [1]": np.array([True, False])}
-    path = tmp_path / "hostile <&> name.vtu"
-    write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)
-    again = read_mesh(path)
-    np.testing.assert_array_equal(again.points, points)
-    assert again.cells[0] == "quad"
-    np.testing.assert_array_equal(again.cells[1], cells[1])
-    for name, values in (arrays | flags).items():
-        np.testing.assert_array_equal((dict(again.at_points) | dict(again.on_cells))[name], values)
-    assert CONVENTION in path.read_text(encoding="ascii")
-    first = path.read_bytes()
-    write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)
-    assert path.read_bytes() == first
 
 
 def test_stress_is_refused_before_it_takes_more_memory_than_there_is(

@@ -15,19 +15,12 @@ from numpy.testing import assert_allclose
 import radial
 import radial.history
 import slipstick
-from contact_errors.stress_errors import stress_errors
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import OnDisc
-from contact_results.stress.points import StressField
-from contact_results.stress.stress_maxima import (
-    Extreme,
-    extremes,
-)
 from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
-    FlatPunch,
     IsotropicMaterial,
     Layer,
     LoadStep,
@@ -35,10 +28,6 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.geometry import ShapedBody
-from contact_scene.quantities.stated_error import (
-    ErrorStatus,
-    StatedError,
-)
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
 from radial.stress.loaded_circle import LoadedCircle
@@ -89,21 +78,6 @@ def test_an_interface_carries_what_it_is_given(
     above, under = below(coated(modulus, thickness, ratio)).compute_fields(sides, RADII)
     for component in (0, 1, 4, 5):
         assert_allclose(above[component], under[component], rtol=0, atol=1e-10)
-
-
-def field_of(scene: Scene) -> tuple[StressField, tuple[Extreme, ...], tuple[StatedError, ...]]:
-    state = state_of_result(radial.solve(scene), None)
-    field = OnDisc(state).stress()
-    found = extremes(field)
-    return field, found, stress_errors(state, field, found)
-
-
-def test_no_error_is_trusted_where_the_stress_is_infinite() -> None:
-    punch = FlatPunch(radius=1.0, material=RIGID)
-    _, found, errors = field_of(scene_of(coated(2.0, 0.5), punch))
-    status = {(e.region, e.measure): error.status for e, error in zip(found, errors, strict=True)}
-    assert status["body", "von_mises"] is ErrorStatus.NOT_CONVERGED
-    assert status["base", "von_mises"] is ErrorStatus.ESTIMATED
 
 
 MU = 0.3

@@ -198,7 +198,6 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     """It waits aside until the new one is whole."""
     record = stored(tmp_path, "coated-tractions")
     directory = tmp_path / "coated-tractions"
-    (directory / "of_mine.txt").touch()
 
     def stopped(*_: object, **__: object) -> None:
         assert stored_studies(tmp_path) == ()
@@ -210,12 +209,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
         compute_study(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
     set_aside(directory)  # finds what the stopped study has left
     assert stored_studies(tmp_path) == ()
-    assert not (directory / "index.html").exists()
     assert stored_studies(directory) == (record,)
-    write_study(record, {}, directory)
-    assert stored_studies(tmp_path) == (record,)
-    assert {path.name for path in directory.iterdir()} >= {"of_mine.txt", "index.html"}
-    assert not (directory / "earlier").exists()
 
 
 @pytest.mark.parametrize(

@@ -71,23 +71,6 @@ def test_default_depths_reach_both_sides_of_every_interface():
     assert interfaces(rigid) == ((Level(0.5, 0),),)
 
 
-@pytest.mark.parametrize(
-    ("stack", "depth", "complaint"),
-    [
-        (COATED, -0.1, "expected a finite length >= 0"),
-        (COATED, float("nan"), "expected a finite length >= 0"),
-        (Stack([(1.0, 0.3, 0.5)]), 0.6, "rigid base"),
-        (COATED, Level(0.1, 2), "outside of its layer"),
-        (COATED, Level(0.1, 3), "does not exist"),
-        (Stack([(1.0, 0.3, 0.5)]), Level(0.5, 1), "does not exist"),
-        (Stack(), 0.1, "the body is rigid"),
-    ],
-)
-def test_depths_outside_of_the_body_are_refused(stack, depth, complaint):
-    with pytest.raises(ValueError, match=complaint):
-        subsurface(stack, GRID, LOAD, None, [depth])
-
-
 DX = 1.0
 DY = 0.6
 

@@ -10,9 +10,6 @@ import pytest
 from command import outcome, rows
 
 from slipstick.sweep_chart import SweptQuantity, round_ticks
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.huber_stress import huber_stress
-from verification.closed_forms.line_contact import CylinderContact
 
 pytestmark = pytest.mark.usefixtures("one_process")
 HERTZ = """
@@ -96,55 +93,3 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all(low < middle)
     assert np.all(middle < high)
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
-
-
-EQUAL_LAYER = """
-[[body.layers]]
-thickness = "0.1 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-"""
-
-
-def test_a_layer_equal_to_its_base_has_a_stress_at_its_interface(scene: Path) -> None:
-    """The solver merges such a layer. Huber's shear at its depth, within the stated error."""
-    layered = HERTZ.replace("[[loading]]", f"{EQUAL_LAYER}[[loading]]")
-    scene.write_text(f"{layered}[semi_analytical]\ncells = [48, 48]\n", encoding="utf-8")
-    varied = ("--vary", "loading[1].normal_force=1..2 kN 2")
-    ended = sweep(scene, *varied, "--get", "interface_shear@1")
-    assert ended.returncode == 0, ended.stderr
-    for row in rows(scene.parent / "out/sweep.csv"):
-        force = 1e3 * float(row["loading[1].normal_force [kN]"])
-        contact = PointContact.under_load(force, 18e-3, MODULUS)
-        r = np.linspace(0.0, 1.5 * contact.contact_radius, 3001)
-        stress = huber_stress(r, 1e-4, contact.contact_radius, contact.peak_pressure, 0.3)
-        largest = float(np.max(np.abs(stress.shear)))
-        error = float(row["interface_shear@1 error [Pa]"])
-        assert error < 1e-3 * largest
-        assert float(row["interface_shear@1 [Pa]"]) == pytest.approx(largest, abs=error)
-
-
-CYLINDER = (
-    HERTZ.replace("paraboloid", "cylinder").replace("1 kN", "1 kN/mm")
-    + "[semi_analytical]\ncells = 256\n"
-)
-
-
-def test_widths_of_a_line_contact_have_the_names_of_its_results(scene: Path) -> None:
-    """Hertz's half width and largest shear stress below a cylinder, .300 p0."""
-    scene.write_text(CYLINDER, encoding="utf-8")
-    varied = ("--vary", "indenter.radius=9..18 mm 2")
-    ended = sweep(scene, *varied, "--get", "half_width,max_shear@body")
-    assert ended.returncode == 0, ended.stderr
-    for row in rows(scene.parent / "out/sweep.csv"):
-        exact = CylinderContact(1e6, 1e-3 * float(row[RADIUS]), MODULUS, 1.0)
-        expected = {
-            "half_width": exact.contact_radius,
-            "max_shear@body": 0.30028 * exact.peak_pressure,
-        }
-        for (name, value), unit in zip(expected.items(), ("m", "Pa"), strict=True):
-            error = float(row[f"{name} error [{unit}]"])
-            assert error < 2e-2 * value
-            assert float(row[f"{name} [{unit}]"]) == pytest.approx(value, abs=error)
-    refused = sweep(scene, *varied, "--get", "contact_radius")
-    assert refused.returncode == 2
-    assert "did you mean half_width?" in " ".join(refused.stderr.replace("│", " ").split())

@@ -7,9 +7,6 @@ from pathlib import Path
 import pytest
 from command import succeeded
 
-from contact_scene import SceneError
-from slipstick.uncertain_inputs import read_inputs
-
 SCENE = """
 [indenter]
 shape = "paraboloid"
@@ -64,29 +61,3 @@ def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) 
     page = (tmp_path / "out/index.html").read_text(encoding="utf-8")
     assert "Uncertainty by inputs" in page
     assert "by indenter.radius" in ended.stdout
-
-
-def test_digits_follow_from_the_larger_uncertainty(tmp_path: Path) -> None:
-    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
-    chosen = ("--inputs", "friction.coefficient=.1±.02", "--figures", "none")
-    ended = succeeded("run", "scene.toml", "-o", "out", *chosen, cwd=tmp_path)
-    rows = {line.split("  ")[0].strip(): line.split() for line in ended.stdout.splitlines()}
-    number = json.loads((tmp_path / "out/inputs.json").read_text())["numbers"]["tangential_shift_x"]
-    assert number["by_inputs"] > number["numerical"] > 0
-    text = rows["tangential shift x (µm)"][4]
-    assert float(text) == pytest.approx(1e6 * number["value"], abs=1e6 * number["by_inputs"] / 10)
-    assert len(text) < 7
-
-
-def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
-    pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
-    (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
-    given = ("--inputs", "body.material.yield_strength=1±.1 GPa", "--solver", "radial")
-    ended = succeeded("run", "scene.toml", "-o", "out", *given, "--figures", "none", cwd=tmp_path)
-    assert "the inputs change no number" in ended.stdout
-
-
-@pytest.mark.parametrize("text", ["a=1±1e400", "a=1e400±1"])
-def test_an_infinite_input_is_refused(text: str) -> None:
-    with pytest.raises(SceneError, match="expected key=value±deviation"):
-        read_inputs(text)

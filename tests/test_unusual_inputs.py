@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
 import slipstick
 from contact_scene import (
     RIGID,
     Body,
-    Cone,
     CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
@@ -23,17 +21,9 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
-    Sphere,
     SurfaceDiscretisation,
 )
 from contact_scene.checks.plausibility import implausible_input
-from contact_scene.solver_errors import (
-    ContactAtWindowEdge,
-    ContactNotResolved,
-    UnsupportedScene,
-)
-from semi_analytical.discretised import CellSolver
-from slipstick.cli.time_estimate import estimated_time
 
 R = 10e-3
 E = 70e9
@@ -135,73 +125,6 @@ def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any
         np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
 
 
-def test_a_constant_map_is_known_within_its_extent_only() -> None:
-    small = CoulombFriction.model_validate(
-        {"coefficient": {"map": np.full((10, 10), 0.3), "spacing": 5e-6}}
-    )
-    with pytest.raises(ContactAtWindowEdge, match="friction map"):
-        slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
-
-
-# Scenes that have no answer are refused before the work, with their reason.
-
-
-def measured(heights: NDArray[np.float64]) -> HeightMap:
-    return HeightMap(material=RIGID, file=heights, spacing=5e-6)  # type: ignore[arg-type]
-
-
-AT = np.square(np.arange(32) - 15.5) * 5e-6**2 / (2 * R)
-ROUND = AT[:, None] + AT
-TILT = 2e-2 * np.arange(32) * 5e-6
-RIDGES = 1e-8 * np.cos(np.arange(32))[:, None] * np.cos(np.arange(32))
-
-
-@pytest.mark.parametrize(
-    "heights",
-    [
-        np.zeros((32, 32)),
-        -ROUND,
-        ROUND + TILT,
-        ROUND - TILT,
-        ROUND.T - TILT[:, None],
-        np.ones((9, 40)),
-    ],
-    ids=["flat", "inverted", "near y", "far y", "far x", "flat, above zero"],
-)
-def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
-    heights: NDArray[np.float64],
-) -> None:
-    asked = scene(PRESS, PUSH, indenter=measured(heights), friction=MU)
-    told: list[object] = []
-    assert any("lies on the rim of the map" in remark for remark in implausible_input(asked))
-    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*Change indenter.flip"):
-        slipstick.solve(asked, progress=told.append)
-    assert not told
-
-
-def test_a_contact_that_will_reach_the_rim_is_foreseen() -> None:
-    low = measured(ROUND + RIDGES)
-    steps = [{"normal_force": force, "increments": 3} for force in (0.01, 100.0)]
-    told: list[object] = []
-    with pytest.raises(ContactAtWindowEdge, match="under normal_force 100 N, the contact reaches"):
-        slipstick.solve(scene(*steps, indenter=low), progress=told.append)
-    assert not told
-    assert not any("rim" in remark for remark in implausible_input(scene(*steps, indenter=low)))
-
-
-@pytest.mark.parametrize("solver", COARSE)
-@pytest.mark.parametrize("load", [{"approach": R}, {"approach": 3 * R}, {"normal_force": 1e8}])
-def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
-    solver: Any, load: dict[str, float]
-) -> None:
-    asked = scene(load, indenter=Sphere(material=RIGID, radius=R))
-    for call in (slipstick.plan, slipstick.solve):
-        with pytest.raises(UnsupportedScene, match=r"presses the sphere to its equator.*take less"):
-            call(asked, solver)
-    below = scene({"approach": 0.5 * R}, indenter=Sphere(material=RIGID, radius=R))
-    assert slipstick.plan(below, solver)
-
-
 # A measured map means the same in every form that instruments write.
 
 PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
@@ -214,17 +137,6 @@ def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
     (folder / name).write_text(text, encoding="utf-8")
     given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
     return HeightMap.model_validate(given, context={"folder": folder})
-
-
-def test_a_map_that_counts_towards_the_body_is_flipped() -> None:
-    surface = ball_map(32)
-    towards = {"file": -1e6 * surface.file.values, "height_unit": "um", "flip": True}
-    flipped = HeightMap(material=RIGID, spacing=surface.spacing, **towards)  # type: ignore[arg-type]
-    ends = [
-        slipstick.solve(scene({"approach": APPROACH}, indenter=one)).steps[-1]
-        for one in (surface, flipped)
-    ]
-    assert ends[1].normal_force == pytest.approx(ends[0].normal_force, rel=1e-9)
 
 
 @pytest.mark.parametrize("word", ["", "NaN", "bad", "***", "#N/A", '"-nan"'])
@@ -245,56 +157,3 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     np.testing.assert_array_equal(found.heights[known], gaps[known])
     remarks = implausible_input(scene(PRESS, indenter=found))
     assert any("0.079 of the points were not measured" in remark for remark in remarks)
-
-
-def warnings_of(folder: Path, values: np.ndarray) -> list[str]:
-    text = "\n".join(",".join(map(str, row)) for row in values.tolist())
-    surface = read_map(folder, "map.csv", text, height_unit="nm")
-    return [each for each in implausible_input(scene(PRESS, indenter=surface)) if "file" in each]
-
-
-@pytest.mark.parametrize("mark", [-9999.0, -32768.0, 9999.0, 1e10, -3.4e38])
-def test_a_mark_among_the_heights_is_named(mark: float, tmp_path: Path) -> None:
-    heights = 500.0 * TOLD
-    assert not any("values are" in each for each in warnings_of(tmp_path, heights))
-    heights[3, 2] = mark
-    (found,) = (each for each in warnings_of(tmp_path, heights) if "values are" in each)
-    assert f"1 of 63 values are {mark:g}, all others between" in found
-    friction = np.where(heights == mark, abs(mark), 0.3 + 1e-4 * heights)
-    coefficient = {"map": friction, "spacing": 1e-3}
-    told = implausible_input(scene(PRESS, friction=CoulombFriction(coefficient=coefficient)))
-    assert any("friction.coefficient.map: 1 of 63 values are" in each for each in told)
-
-
-def test_coordinates_beside_the_heights_are_named(tmp_path: Path) -> None:
-    heights = 5e3 * TOLD
-    places = np.round(np.linspace(-0.02, 0.02, 9), 3)[:, None]
-    both = np.vstack([np.append(np.nan, places[:7, 0]), np.hstack([places, heights])])
-    plane = places + 0.1 * np.arange(7)
-    for values, expected in (
-        (heights, 0),
-        (plane + heights, 0),
-        (np.hstack([places, heights]), 1),
-        (np.hstack([heights, places[::-1]]), 1),
-        (np.hstack([places, heights]).T, 1),
-        (both, 1),
-    ):
-        found = [each for each in warnings_of(tmp_path, values) if "evenly spaced" in each]
-        assert len(found) == expected
-
-
-def test_a_map_of_friction_has_a_value_everywhere() -> None:
-    values = np.full((4, 4), 0.3)
-    values[1, 2] = np.nan
-    with pytest.raises(ValidationError, match=r"holds nan at \[1, 2\]"):
-        CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-5}})
-
-
-def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:
-    cone = Cone(material=RIGID, slope_angle=np.pi / 180)
-    asked = scene({"approach": APPROACH}, indenter=cone)
-    fineness = SurfaceDiscretisation(cells=(8, 8), window=(4e-3, 4e-3))
-    solver = CellSolver(asked, fineness)
-    for call in (estimated_time, CellSolver.run):
-        with pytest.raises(ContactNotResolved, match="Use more cells"):
-            call(solver)

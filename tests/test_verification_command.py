@@ -16,21 +16,8 @@ from verification.cases.catalogue import choose, lost
 from verification.cases.histories import load_paths
 from verification.cases.partial_slip import near_sliding
 from verification.judging.case import Level
-from verification.judging.declared_case import (
-    APPROACH,
-    CONTACT_RADIUS,
-    PEAK_PRESSURE,
-    RefinementLevels,
-    Within,
-    judged,
-    on_cells,
-    on_elements,
-    on_radii,
-)
-from verification.judging.declared_case import case as declared
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
-from verification.problems.indentation import BALL
 from verification.report.file_names import FILES, PAGE, RECORD
 from verification.report.files import EARLIER
 
@@ -70,22 +57,6 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
     assert "1.00e-03" in outcome.verdicts[0].meaning
     assert len(outcome.runs) == len(case.runs) - 1
     assert outcome.count(Status.PASS) > 1
-
-
-LEVELS = {
-    "cells": on_cells(BALL, (32,)),
-    "elements": on_elements(BALL, (12,)),
-    "radii": on_radii(BALL, "ball"),
-}
-
-
-@pytest.mark.parametrize("levels", LEVELS.values(), ids=LEVELS)
-def test_each_solver_states_the_errors_of_judged_scalars(levels: RefinementLevels) -> None:
-    rows = [Within(what, 1.0, "why") for what in (APPROACH, CONTACT_RADIUS, PEAK_PRESSURE)]
-    found = judge(declared("planted", "title", "problem", judged(levels, rows))).verdicts
-    stated = [verdict for verdict in found if verdict.stated_error is not None]
-    assert [verdict.name for verdict in stated] == [row.what.name for row in rows]
-    assert all(verdict.covered for verdict in stated)
 
 
 # ---- killed verifications

@@ -39,6 +39,7 @@ from verification.running.case_pool import ThisProcess
 
 FOLDER = Path(__file__).with_name("transcripts")
 INPUTS = (".toml", ".csv", ".py")
+LEFT_OUT = (".pyc", ".npy")  # files that are not text and that no command writes
 SHOWN = 12  # values of a column that are shown one by one; of a longer one, as many samples
 # Allowed difference, relative to a number and to the largest number of its line.
 RELATIVE = 1e-5
@@ -131,7 +132,9 @@ def _write_figure(figure: Any, path: Path, dots: int = 0) -> None:
 
 def _contents(directory: Path) -> dict[str, bytes]:
     """Files below a directory by name, without the stored cases that the other files summarise."""
-    files = [path for path in directory.rglob("*") if path.is_file() and path.suffix != ".pyc"]
+    files = [
+        path for path in directory.rglob("*") if path.is_file() and path.suffix not in LEFT_OUT
+    ]
     names = {path.relative_to(directory): path for path in files}
     left_out = {"cases", "points", "seconds.csv", "junit.xml"}
     chosen = {name: path for name, path in names.items() if not left_out & {*name.parts}}
@@ -342,7 +345,8 @@ def _agree(accepted: str, found: str) -> bool:
     least = max(of_line * largest, absolute, *by_solves)
     stated = STATED_ERROR.findall(accepted)
     return all(
-        abs(float(old) - float(new))
+        old == new
+        or abs(float(old) - float(new))
         <= max(relative * abs(float(old)), least, _last_digit(old, 2 if old in stated else 3))
         for old, new in pairs
     )
