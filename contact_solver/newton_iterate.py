@@ -26,8 +26,11 @@ from contact_solver.zones import Zones
 
 # Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
-# Reduction of the merit by a linear solve while the zones change.
+# Reduction by a linear solve while the zones change: of the residual, or of the merit.
 ROUGH_REDUCTION = 0.05
+# Part of the merit of the iterate, or of 1, above which the error of a linear solve dominates the
+# next iterate.
+DOMINATES = 0.2
 # Merit below which an iterate with an exact inverse is made admissible, for its residuals.
 NEAR = 1e-6
 STEP_FACTORS = 0.5 ** np.arange(5)
@@ -110,7 +113,10 @@ class NewtonIterate:
         merit may be 1e5 times that of the iterate, which the solve has to reduce.
         """
         here = self.natural.merit
-        return ROUGH_REDUCTION * (min(here, self.merit, 1.0) / here if here > 0 else 1.0)
+        merit = min(self.merit, 1.0)
+        if ROUGH_REDUCTION * here <= DOMINATES * merit:
+            return ROUGH_REDUCTION
+        return ROUGH_REDUCTION * merit / here
 
     def step(self, depth: float) -> None:
         """Take a Newton step: solve the linear system in fixed zones, then apply a line search.
