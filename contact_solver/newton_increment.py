@@ -9,14 +9,12 @@ from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from contact_solver.newton_iterate import NewtonIterate
+from contact_solver.newton_iterate import ROUGH_REDUCTION, NewtonIterate
 from contact_solver.residuals import complementarity, penetration, slip_direction
 
 MAX_STEPS = 40
 # Successive steps that may reduce residual and merit by less than 10 %.
 MAX_IDLE = 3
-# Largest reduction factor of a linear solve; used while the zones change.
-ROUGH_REDUCTION = 0.05
 # Smallest residual of a linear solve over the tolerance: the rest is left to its non-linear terms.
 FINE = 0.3
 # Round-off of a displacement in units of its own rounding. Convolutions with 48 to 96 cells along a
@@ -55,12 +53,12 @@ def solve_by_newton(
             )
         if number == 1 and at.natural.merit > furthest:
             break
-        merit = at.natural.merit
-        idle = 0 if residual < 0.9 * best or merit < 0.9 * least else idle + 1
-        best, least = min(best, residual), min(least, merit)
+        idle = 0 if residual < 0.9 * best or at.merit < 0.9 * least else idle + 1
+        best, least = min(best, residual), min(least, at.merit)
         if idle >= MAX_IDLE:
             break
-        depth = min(ROUGH_REDUCTION, at.natural.merit) if at.settled else ROUGH_REDUCTION
+        rough = at.rough_reduction
+        depth = min(rough, at.natural.merit) if at.settled else rough
         at.step(min(ROUGH_REDUCTION, max(depth, FINE * tolerance / residual)))
     raise NotConverged("the coupled increment", at.iterations, best, tolerance)
 

@@ -5,6 +5,8 @@ system in these zones by GMRES, and applies a line search. The motion of the ind
 the exact projection, not from the linear system, whose motion may empty the stick zone.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from contact_scene.array_types import Vector
@@ -24,6 +26,11 @@ from contact_solver.zones import Zones
 
 # Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
+# Reduction by a linear solve while the zones change: of the residual, or of the merit.
+ROUGH_REDUCTION = 0.05
+# Part of the merit of the iterate, or of 1, above which the error of a linear solve dominates the
+# next iterate.
+DOMINATES = 0.2
 # Merit below which an iterate with an exact inverse is made admissible, for its residuals.
 NEAR = 1e-6
 STEP_FACTORS = 0.5 ** np.arange(5)
@@ -37,13 +44,16 @@ class NewtonIterate:
 
     point       tractions and displacements
     natural     contact and friction conditions at the iterate (natural map)
+    merit       merit of the iterate before its tractions were made admissible
     closing     rigid normal motion that closes the gap of the iterate
     settled     True if the last step changed the zone (contact, stick, slip) of only few points
     iterations  sum of GMRES iterations
     """
 
     natural: Natural
+    merit: float
     closing: Vector
+    _base: NewtonPoint
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
         """Start Newton's method at given tractions.
@@ -75,6 +85,7 @@ class NewtonIterate:
         they stay.
         """
         problem, motion = self._problem, self.natural.motion
+        self._base, self.merit = replace(self.point, motion=motion), self.natural.merit
         zones = zones_of(self.natural, problem)
         if problem.inverse.exact and self.natural.merit > NEAR:
             self._increment, self.is_admissible = LinearisedContact(problem, zones), False
@@ -94,15 +105,28 @@ class NewtonIterate:
         self.point, self.closing = evaluate_point(problem, tractions, motion)
         self.natural = natural_map(problem, self.point)
 
+    @property
+    def rough_reduction(self) -> float:
+        """Reduction of the residual by a linear solve while the zones change.
+
+        The residual is that of admissible tractions. On a film much stiffer than its base, their
+        merit may be 1e5 times that of the iterate, which the solve has to reduce.
+        """
+        here = self.natural.merit
+        merit = min(self.merit, 1.0)
+        if ROUGH_REDUCTION * here <= DOMINATES * merit:
+            return ROUGH_REDUCTION
+        return ROUGH_REDUCTION * merit / here
+
     def step(self, depth: float) -> None:
         """Take a Newton step: solve the linear system in fixed zones, then apply a line search.
 
-        Zones are the points in contact, in stick and in slip.
+        Zones are the points in contact, in stick and in slip. The line search starts from the
+        iterate that determines the zones: the merit of its admissible tractions may be larger.
 
         depth  reduction of the residual by the linear solve
         """
         assert self._increment is not None
-        merit = self.natural.merit
         if self._problem.inverse.exact:
             step = self._increment.solve_exactly(self.point, self.natural.motion)
         else:
@@ -110,7 +134,14 @@ class NewtonIterate:
             del self.natural  # release its memory before the solve
             step = self._increment.solve(residual, depth)
         self.iterations += step.iterations
-        self.point, self.natural = _line_search(self._problem, self.point, step, merit)
+        base, at = self._base, self.point
+        whole = replace(
+            step,
+            tractions=step.tractions + (at.tractions - base.tractions),
+            displacements=step.displacements + (at.displacements - base.displacements),
+            closure=step.closure + (at.closure - base.closure),
+        )
+        self.point, self.natural = _line_search(self._problem, base, whole, self.merit)
 
 
 def evaluate_point(

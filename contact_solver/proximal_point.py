@@ -18,10 +18,7 @@ from contact_solver.coupled_problem import (
     CoupledSolution,
 )
 from contact_solver.natural_map import Tractions
-from contact_solver.newton_increment import (
-    ROUGH_REDUCTION,
-    solve_by_newton,
-)
+from contact_solver.newton_increment import solve_by_newton
 from contact_solver.newton_iterate import NewtonIterate
 
 MAX_PROXIMAL_STEPS = 60
@@ -107,7 +104,7 @@ def _proximal_step(problem: CoupledProblem, tractions: Tractions, motion: Vector
     at.linearise()
     target = max(INNER_REDUCTION * at.natural.merit, ROUND_OFF)
     for _ in range(MAX_STEPS):
-        at.step(ROUGH_REDUCTION)
+        at.step(at.rough_reduction)
         at.linearise()
         if at.natural.merit <= target:
             return at

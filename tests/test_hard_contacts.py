@@ -40,11 +40,8 @@ ON_CELLS = [
     replace(HALF_SPACE, path=LoadingPath.APPROACH, friction=1.0, push=0.8, cells=32),
     # here cells let go one after the other below a film that lifts them,
     replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
-    # here it lifted them differently whenever the pressure was not solved for thoroughly,
-    pytest.param(
-        replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
-        marks=pytest.mark.slow,
-    ),
+    # here admissible tractions have 1e5 times the merit of the iterate near them,
+    replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=48),
     # here the shear's preconditioner was not positive,
     pytest.param(
         replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),

@@ -315,6 +315,18 @@ def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> N
         np.testing.assert_allclose(end.tangential_shift, shift, atol=1e-9 * APPROACH, rtol=0)
 
 
+@pytest.mark.parametrize("solver", [name for name in SOLVERS if name != "fem"])
+def test_little_friction_shears_in_proportion_to_it(solver: Any) -> None:
+    """But for terms of the order µ, and a penalty, whose augmentations change the pressure."""
+    found = []
+    for mu in (1e-4, 1e-7):
+        loading = press(increments=1), push(0.6, friction=mu, increments=1)
+        described = UNLIKE(*loading, body=bulk(0.3), friction=mu)
+        end = slipstick.solve(described, solver, SOLVERS[solver]).steps[-1]
+        found.append((end.tangential_shift[0] / mu, end.stick_area))
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-4)
+
+
 TILTED = {"moment": (0.1 * LOAD * A, 0.3 * LOAD * A)}
 TWISTED = {"torque": 0.2 * TURN}
 BY_LOAD = {
