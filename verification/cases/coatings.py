@@ -84,7 +84,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, worst_violation
+from verification.laws.limit_laws import LAWS, worst_violation
 from verification.observed.ring_errors import normal_force
 from verification.problems.indentation import (
     BARE,
@@ -824,7 +824,6 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
     energy, limits and monotonicity. Each law is tested on random layered bodies; the largest
     violation is judged. All levels are equal.
     """
-    laws = sorted(SYMMETRY_LAWS + LIMIT_LAWS, key=lambda law: int(law.number[1:]))
     return case(
         "frf_laws",
         "Laws of the frequency response of layered bodies",
@@ -838,10 +837,10 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         quantities=tuple(
             computed_error(
                 law.name,
-                f"{law.number}: {law.statement}",
+                law.statement,
                 f"{law.draws} bodies",
                 partial(worst_violation, law),
-                identity(0.0, f"property {law.number} of elastic layered half-spaces"),
+                identity(0.0, "elastic layered half-spaces"),
                 Required(
                     law.allowed,
                     "bound of the law"
@@ -849,7 +848,7 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
                     else "rounding, or the law's own next order",
                 ),
             )
-            for law in laws
+            for law in LAWS
         ),
         equations=(
             r"\mathbf{F}(\mathbf{k}) = \mathbf{F}(\mathbf{k})^H,\quad "

@@ -548,9 +548,6 @@ def _rounded(value: Any) -> Any:
     return value
 
 
-SAMPLINGS = ("point", "cell")
-
-
 @dataclass(frozen=True)
 class Field:
     """Traction that another code computed, given at points that this code has chosen.
