@@ -70,7 +70,6 @@ LONG = (
     "fem_hertz",
     "fem_increments",
     "fem_partial_slip",
-    "fem_penalty_indentation",
     "fem_torsion",
     "forced_effects",
     "fretting_loop",
