@@ -294,6 +294,8 @@ REFUSED = [
     (r"\"contact_radius\"", '"approach"', "approach of step 1 twice"),
     (r"\"contact_radius\"", '"radius"', "('radius', 1) is not asked; asked: ('approach', 1)"),
     (r"\"value\": [\d.e-]+", '"value": "8 um"', "key levels[1].numbers[1].value"),
+    (r"\"value\": [\d.e-]+", '"value": true', "key levels[1].numbers[1].value"),
+    (r"\"value\": [\d.e-]+", '"value": NaN', "key levels[1].numbers[1].value"),
     (r"\"value\": [\d.e-]+", '"value": null', "nothing is answered"),
     (
         r"\"fields\": \[\]",

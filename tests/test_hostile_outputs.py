@@ -1,6 +1,7 @@
 """Every command that writes, into places that take nothing: an exit code and one error that says
 why, and nothing half-written."""
 
+import json
 import os
 import resource
 import sys
@@ -54,13 +55,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     succeeded("run", "scene.toml", *QUICK, "-o", "run", cwd=folder)
     export = ("challenge", "export", "hertz_point", "-o", "answered")
     succeeded(*export, cwd=folder)
-    answers = folder / "answered"
-    (answers / "solver.toml").write_text('[solver]\nname = "theirs"\n', encoding="utf-8")
-    with open(answers / "levels.csv", "a", encoding="utf-8") as levels:
-        levels.write("1,solved,,0.01,mm,,\n")
-    lines = (answers / "answers.csv").read_text(encoding="utf-8").splitlines()
-    lines[1] = lines[1].replace(",,", ",1,", 1)
-    (answers / "answers.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    answers = folder / "answered" / "answers.json"
+    content = json.loads(answers.read_text(encoding="utf-8"))
+    content["solver"]["name"] = "theirs"
+    content["levels"][0]["h"] = 1e-5
+    content["levels"][0]["numbers"][0]["value"] = 1.0
+    answers.write_text(json.dumps(content), encoding="utf-8")
     report = report_by(case("hertz_point", {"approach": (1.0, 1.0)}, run_record(32, None)))
     (folder / "report.json").write_text(dump_report(report), encoding="utf-8")
     return folder

@@ -11,7 +11,7 @@ import io
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field as Described
@@ -90,6 +90,10 @@ POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
 TEMPLATES = Path(__file__).parent / "templates"
 
 
+# Texts and truth values are no numbers.
+Number = Annotated[float, Described(strict=True)]
+
+
 class GivenSolver(Description):
     """Description of the code that answers, and of the accuracy that it claims."""
 
@@ -100,7 +104,7 @@ class GivenSolver(Description):
     """Values of fields: "point", or "cell" for means over squares of the areas."""
 
     claimed_grade: Grade | None = None
-    claimed_orders: dict[str, float] = Described(default_factory=dict)
+    claimed_orders: dict[str, Number] = Described(default_factory=dict)
 
 
 class GivenNumber(Description):
@@ -108,8 +112,8 @@ class GivenNumber(Description):
 
     quantity: str
     load_step: int
-    value: float | tuple[float, ...] | None = None
-    u: float | None = Described(default=None, ge=0)
+    value: Number | tuple[Number, ...] | None = None
+    u: Number | None = Described(default=None, ge=0)
     """Standard uncertainty of one number."""
 
 
@@ -118,21 +122,21 @@ class GivenField(Description):
 
     quantity: str
     load_step: int
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    value: tuple[float, ...]
-    area: tuple[float, ...]
+    x: tuple[Number, ...]
+    y: tuple[Number, ...]
+    value: tuple[Number, ...]
+    area: tuple[Number, ...]
 
 
 class GivenLevel(Description):
     """Answer on one refinement level."""
 
-    h: float
+    h: Number
     """Side of a cell or element at the contact edge [m]."""
 
     label: str = ""
     unknowns: int | None = Described(default=None, ge=0)
-    seconds: float | None = Described(default=None, ge=0)
+    seconds: Number | None = Described(default=None, ge=0)
     gave_up: str | None = None
     """Reason of a level without an answer."""
 
