@@ -14,7 +14,6 @@ from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import map_coordinates
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
@@ -28,7 +27,6 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
@@ -164,26 +162,6 @@ SHEAR_AT_EDGE = error_norm(
     field_errors.stick_edge_error,
     OVER_LIMIT,
 )
-
-
-def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """Interpolate a field on cells bilinearly to the centres of the cells of a coarser or finer
-    grid.
-
-    Both grids divide one window. Used to compare tractions on two grids. Means over the cells of
-    the other grid are no substitute: they have a first-order error on the whole surface.
-
-    cells  numbers of cells of the other grid along x and y
-    field  values at the cell centres of the first grid (components, n, m)
-    """
-    places = (
-        (np.arange(to) + 0.5) * of / to - 0.5
-        for to, of in zip(cells, field.shape[-2:], strict=True)
-    )
-    at = np.meshgrid(*places, indexing="ij")
-    # Beyond the outermost centres the value is constant.
-    found = [map_coordinates(one, at, order=1, mode="nearest") for one in field]
-    return np.stack(found)
 
 
 ONE = "1"
@@ -329,13 +307,11 @@ def change(
 
 @dataclass(frozen=True)
 class Refined:
-    """Hold runs with one refined discretisation parameter (cells or increments), coarse to fine.
+    """Hold runs with more and more increments, coarse to fine.
 
     The differences between the runs are judged by their order of convergence.
 
     runs      runs, coarse to fine
-    refined   refined parameter: mesh or increments
-    size      function from a result to the parameter h
     x_label   label of h in charts
     changes   differences whose order is judged
     apart     distance in the list between the two runs of a difference, for example 2
@@ -343,8 +319,6 @@ class Refined:
     """
 
     runs: tuple[AnyRun, ...]
-    refined: Refinement
-    size: Callable[[Any], float]
     x_label: str
     changes: tuple[Order, ...]
     apart: int
@@ -360,15 +334,15 @@ class Refined:
             replace(
                 one,
                 levels=labels[self.left_out.get(one.of, 0) :],
-                refined=self.refined,
-                size=self.size,
+                refined=Refinement.INCREMENTS,
+                size=_increment_size,
                 apart=self.apart,
             )
             for one in self.changes
         )
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Return a function that draws the differences between runs over the refined parameter h.
+        """Return a function that draws the differences between runs over the size of an increment.
 
         The function receives the results of a case by run label and returns the chart.
         """
@@ -380,7 +354,7 @@ class Refined:
                 name,
                 title,
                 caption,
-                [self.size(coarse) for coarse, _ in pairs],
+                [_increment_size(coarse) for coarse, _ in pairs],
                 {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
                 {one.of.value: one.expected for one in self.changes},
                 self.x_label,
@@ -405,14 +379,9 @@ def _shift_change(coarse: Any, fine: Any) -> float:
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the final shear between two grids, Σ|q_coarse - q_fine| / Σµp [1].
-
-    The shear of the fine grid is interpolated to the centres of the coarse cells. µ and p are the
-    friction coefficient and the pressure of the contact whose stick radius is half the contact
-    radius.
-    """
+    """Compute the difference of the final shear on one grid, Σ|q_coarse - q_fine| / Σµp [1]."""
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
-    size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
+    size = np.hypot(*(found - other))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
 
 
@@ -453,7 +422,6 @@ HALF = Indentation(
     Body(material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)),
     "self-similar (Spence 1975), to five digits",
 )
-FIVE_DIGITS = 0.5e-5 / 0.49972
 KEPT_SLIP = (
     "slip keeps its direction while the contact grows; the errors of the increments in the stick "
     "zone alternate and cancel in a mean"
@@ -506,8 +474,6 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
     )
     paths = Refined(
         runs,
-        Refinement.INCREMENTS,
-        _increment_size,
         "1 / increments of a step",
         (
             change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
@@ -898,8 +864,6 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
             SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
             for count in (2, 3, 4, 6, 8, 12)
         ),
-        Refinement.INCREMENTS,
-        _increment_size,
         "1 / increments",
         (
             change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
