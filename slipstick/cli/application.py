@@ -125,6 +125,7 @@ MAINTENANCE = _lazy_commands(
         "study": "Compute a study on a pool of processes and write its page.",
         "compare": "List changes since the accepted numbers, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
+        "tolerances": "Propose or accept tolerances that follow the errors.",
         "cpu": "Compare the CPU time of solvers and commands with the stored times.",
         "records": "List stored records, their age and cost, or regenerate them.",
         "deposit": "Write all reference tables as an RO-Crate.",
@@ -176,13 +177,13 @@ application.add_typer(
     maintenance,
     name=MAINTAIN,
     rich_help_panel="Maintenance",
-    help="Maintain the program: studies, baselines, records, reports.",
+    help="Maintain the program: studies, baselines, tolerances, records, reports.",
 )
 
 
 @maintenance.callback()
 def maintain() -> None:
-    """Maintain the program: studies, baselines, records, reports."""
+    """Maintain the program: studies, baselines, tolerances, records, reports."""
 
 
 def _print_version(wanted: bool) -> None:

@@ -223,7 +223,7 @@ class Verdict(Description):
 
     allowed: float
     bound: float | None = None
-    """What the case allowed, where an older report accepted less; null in others."""
+    """What the case allows, where less is accepted; null where that is what is allowed."""
 
     scale: float
     scale_name: str

@@ -25,7 +25,7 @@ from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
 from verification.cases.requirements import unmet
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
-from verification.regression.baseline import compared, read_baselines
+from verification.regression.baseline import compared, held_to, read_baselines, read_tolerances
 from verification.report.file_names import PAGE
 from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
 from verification.report.summary_text import (
@@ -178,6 +178,7 @@ def judge_cases(
     workers    number of processes, or workers of a cluster
     fresh      true to ignore stored cases of earlier runs
     """
+    tolerances = read_tolerances(level.lower())
     requested = [CaseToJudge(case.name, level) for case in cases]
     refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES, JudgedCase)
@@ -191,7 +192,7 @@ def judge_cases(
             seconds[case.name] = end.record.seconds
         else:
             outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
-    return tuple(outcomes), seconds
+    return held_to(outcomes, tolerances), seconds
 
 
 def _case_line(end: CaseEnd) -> str:
