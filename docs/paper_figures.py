@@ -1,7 +1,7 @@
-"""The paper's figures 1 and 2, drawn from the stored report.
+"""The paper's figures 1 to 4, drawn from the stored records.
 
-`python docs/paper_figures.py` reads reports/full and writes docs/studies/figure_*.svg. Figures 3
-and 4 are of a completed study (docs/studies/coated_tractions.md).
+`python docs/paper_figures.py` reads reports/full and reports/studies/coated-tractions, and
+writes docs/studies/figure_*.svg.
 """
 
 from collections.abc import Iterator
@@ -13,6 +13,7 @@ from contact_results.figures import style
 from verification.exhibits.chart import Chart
 from verification.report.drawing import draw
 from verification.running.report_record import load_report
+from verification.running.study import StudyRecord
 
 DOCS = Path(__file__).parent
 REPORTS = DOCS.parent / "reports"
@@ -33,6 +34,9 @@ def paper_charts() -> Iterator[tuple[str, Chart]]:
     report = load_report(REPORTS / "full" / "report.json.xz")
     [loop] = [case for case in report.cases if case.name == LOOP]
     yield from zip(LOOP_CHARTS, loop.charts, strict=False)  # the third chart is not in the paper
+    record = REPORTS / "studies" / "coated-tractions" / "study.json"
+    coated = StudyRecord.model_validate_json(record.read_text(encoding="utf-8"))
+    yield from ((chart.name, chart) for chart in coated.conclusion.charts)
 
 
 if __name__ == "__main__":

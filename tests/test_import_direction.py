@@ -32,7 +32,7 @@ LAYERS = (
     ("verification.running", "verification.regression"),
     ("verification.cases", "verification.defects", "verification.challenge"),
     ("verification.studies",),
-    ("verification.report",),
+    ("verification.report", "verification.judged_by_pytest"),
     ("verification",),
     ("slipstick",),
 )

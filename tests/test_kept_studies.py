@@ -58,8 +58,8 @@ def test_a_kept_record_is_written_as_it_is_kept(name: str) -> None:
     assert dump_study(kept(name)) == (STUDY_FILES / name / "study.json").read_text("utf-8")
 
 
-def test_the_kept_map_answers_what_is_asked_today() -> None:
-    name = "stability"
+@pytest.mark.parametrize("name", ["coated-tractions", "stability"])
+def test_a_kept_record_answers_what_is_asked_today(name: str) -> None:
     assert kept(name).question == STUDIES[name].question
     claims = [statement.claim for statement in kept(name).conclusion.statements]
     assert claims == [statement.claim for statement in today(name).statements]

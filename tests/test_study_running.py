@@ -196,8 +196,8 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It waits aside until the new one is whole."""
-    record = stored(tmp_path, "work-precision")
-    directory = tmp_path / "work-precision"
+    record = stored(tmp_path, "coated-tractions")
+    directory = tmp_path / "coated-tractions"
     (directory / "of_mine.txt").touch()
 
     def stopped(*_: object, **__: object) -> None:
@@ -205,7 +205,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
         raise KeyboardInterrupt
 
     monkeypatch.setattr("verification.running.case_pool.run_cases", stopped)
-    chosen = STUDIES["work-precision"]
+    chosen = STUDIES["coated-tractions"]
     with pytest.raises(KeyboardInterrupt):
         compute_study(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
     set_aside(directory)  # finds what the stopped study has left

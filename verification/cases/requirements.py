@@ -33,8 +33,9 @@ REQUIREMENTS: dict[str, dict[str, str]] = {
     "Figures": {
         "figure 1": "load history of the fretting loop",
         "figure 2": "tractions in the loop, closed form",
-        "figure 3": "pressure of coated contacts under tangential load",
-        "figure 4": "shear of the same contacts",
+        "figure 3": "pressure of coated contacts under tangential load; study `coated-tractions` "
+        "has an error for each curve",
+        "figure 4": "shear of the same contacts; study `coated-tractions`",
     },
     "Statements": {
         "p_H": r"$p_H$ = 3.1684 GPa, $a_H$ = 0.388 mm",

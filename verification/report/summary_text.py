@@ -39,6 +39,7 @@ from verification.running.study import StudyRecord, measured_text, study_failure
 
 # By the name of its study. A study gets its place on the page in `templates/page.html`.
 TITLES = {
+    "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
     "work-precision": "What accuracy costs",
     "error-coverage": "Coverage of stated errors",
     "stability": "The stability map",
@@ -183,7 +184,7 @@ OMISSIONS = (
     "coating and without, a punch and a ball pressed beside their axes. No case and no reference "
     "has them together with a tangential push.",
     "Tangential loads on coated bodies with friction have no closed form: they are judged by the "
-    "other solvers and by an external code.",
+    "other solvers, by an external code and by the study coated-tractions.",
     "Where both solvers are compared they take the same increments: what finite increments cost is "
     "judged apart, by refining them.",
     "The finite elements are axisymmetric: neither tilt nor a load that turns, no height map and "
