@@ -45,7 +45,6 @@ LONGEST = (
     "test_study_stability",
     "test_bulk_strain",
     "test_checkpoint",
-    "test_adapters",
     "test_memory_estimate",
     "test_friction_in_solvers",
     "test_loaded_modules",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -19,7 +19,7 @@ from command import slipstick
 from contact_scene import Body, load_scene
 from verification import Answer, Field, Solver, judge
 from verification.challenge.cases import challenges
-from verification.challenge.files import toml_text
+from verification.challenge.files import read_answers, toml_text
 from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import (
     Challenge,
@@ -220,15 +220,15 @@ def filled(tmp_path: Path) -> Path:
     """The challenge, answered rightly."""
     folder = tmp_path / "challenge"
     assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
-    solver = folder / "solver.toml"
-    solver.write_text(solver.read_text().replace('name = ""', 'name = "stranger <b>"'))
-    with (folder / "levels.csv").open("a") as levels:
-        levels.write("1,solved,,4.5,um,100,0.1\n")
-    (folder / "answers.csv").write_text(
-        "level,load_step,quantity,value,unit,u,point\n"
-        f"1,1,approach,{HERTZ.approach * 1e6!r},um,,\n"
-        f"1,1,contact_radius,{HERTZ.contact_radius!r},m,,\n"
-    )
+    file = folder / "answers.json"
+    content = json.loads(file.read_text())
+    values = {"approach": HERTZ.approach, "contact_radius": HERTZ.contact_radius}
+    (level,) = content["levels"]
+    for number in level["numbers"]:
+        number["value"] = values.get(number["quantity"])
+    content["solver"]["name"] = "stranger <b>"
+    content["levels"] = [level | {"h": 4.5e-6, "unknowns": 100, "seconds": 0.1}]
+    file.write_text(json.dumps(content))
     return folder
 
 
@@ -279,39 +279,68 @@ for folder in sys.argv[1:]:
     assert set(codes) == {"0", "9"}
     for folder, code in zip(folders, codes, strict=True):
         found = sorted(path.name for path in (folder / "out").glob("[!.]*"))
-        assert len(found) == 9 if "answers.csv" in found else code == "9"
-        assert folder.parent.name == "old" or len(found) in (0, 9), found
+        assert len(found) == 5 if "answers.json" in found else code == "9"
+        assert folder.parent.name == "old" or len(found) in (0, 5), found
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "said"),
-    [
-        ("manifest.json", "[" * 100_000, "manifest.json: not the manifest of a challenge"),
-        ("solver.toml", "a = " + "[" * 100_000, "solver.toml: "),
-        (
-            "answers.csv",
-            f"level,load_step,quantity,value,unit,u\n1,{'9' * 5000},approach,8,um,\n",
-            "answers.csv:2: load_step '999",
-        ),
-    ],
-)
-def test_a_hostile_file_is_refused_by_name(
-    filled: Path, capsys: pytest.CaptureFixture[str], name: str, content: str, said: str
+# Replaced text of the answers, its replacement, and a part of the message.
+REFUSED = [
+    (r".*", "[" * 100_000, "answers.json is damaged: "),
+    (r"\"name\": \"stranger <b>\"", '"name": ""', "key solver.name: "),
+    (r"\"case_version\": \"\w*\"", '"case_version": "old"', "for version old of hertz_point"),
+    (r"\"h\": 4.5e-06", '"h": null', "key levels[1].h: got a NoneType"),
+    (r"\"h\": 4.5e-06", '"h": -1', "level 1: h is -1.0, expected a positive length"),
+    (r"\"load_step\": 1, \"value\": [\d.e-]+", '"load_step": 2, "value": 1', "is not asked"),
+    (r"\"contact_radius\"", '"approach"', "approach of step 1 twice"),
+    (r"\"contact_radius\"", '"radius"', "('radius', 1) is not asked; asked: ('approach', 1)"),
+    (r"\"value\": [\d.e-]+", '"value": "8 um"', "key levels[1].numbers[1].value"),
+    (r"\"value\": [\d.e-]+", '"value": true', "key levels[1].numbers[1].value"),
+    (r"\"value\": [\d.e-]+", '"value": NaN', "key levels[1].numbers[1].value"),
+    (r"\"value\": [\d.e-]+", '"value": null', "nothing is answered"),
+    (
+        r"\"fields\": \[\]",
+        '"fields": [{"quantity": "pressure", "load_step": 1, "x": [0], "y": [0], "value": [1, 2], '
+        '"area": [1]}]',
+        "a field needs as many numbers of each",
+    ),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), REFUSED)
+def test_answers_in_a_file_are_refused_by_name(
+    filled: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
 ) -> None:
-    (filled / name).write_text(content)
+    file = filled / "answers.json"
+    text = re.sub(old, new, file.read_text(), count=0 if "null" in new else 1, flags=re.DOTALL)
+    assert text != file.read_text()
+    file.write_text(text)
     assert slipstick("judge", filled) == 2
-    assert said in capsys.readouterr().err
+    assert said in " ".join(capsys.readouterr().err.split())
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="has no such devices and queues")
-@pytest.mark.parametrize("name", ["manifest.json", "solver.toml", "levels.csv", "answers.csv"])
-def test_answers_that_never_end_are_not_waited_for(
-    filled: Path, capsys: pytest.CaptureFixture[str], name: str
+def test_fields_and_numbers_at_points_are_read_from_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (filled / name).unlink()
-    os.mkfifo(filled / name)
-    assert slipstick("judge", filled) == 2
-    assert f"{name}: is not a regular file" in capsys.readouterr().err
+    """Their errors are those of the same answer as Python objects."""
+    for challenge in (challenges()["sliding_stress"], challenges()["cattaneo_mindlin"]):
+        folder = tmp_path / challenge.name
+        assert slipstick("challenge", "export", challenge.name, "-o", folder) == 0
+        file, answer = folder / "answers.json", answered(challenge, nothing)
+        content = json.loads(file.read_text())
+        numbers = {**answer.scalars, **answer.points}
+        fields = [
+            {"quantity": q, "load_step": s, **{n: v.tolist() for n, v in vars(field).items()}}
+            for (q, s), field in answer.fields.items()
+        ]
+        for one in content["levels"][0]["numbers"]:
+            one["value"] = np.asarray(numbers[one["quantity"], one["load_step"]]).tolist()
+        content["solver"]["name"] = "file"
+        content["levels"][0] |= {"h": answer.h, "fields": fields}
+        file.write_text(json.dumps(content))
+        assert read_answers(folder)[2][0].fields.keys() == answer.fields.keys()
+        assert slipstick("judge", folder, "--strict") == 0
+        direct = judged(challenge, Solver("file"), [answer]).line
+        assert direct in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", NAMES)

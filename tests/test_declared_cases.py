@@ -22,7 +22,6 @@ from verification.judging.case import (
     Followed,
     Level,
     Quantity,
-    Refinement,
     compare_runs,
 )
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
@@ -37,9 +36,7 @@ def test_an_order_is_judged_on_all_levels_but_those_that_are_left_out() -> None:
         for of in (Followed.SHIFT, Followed.APPROACH)
     )
     runs: Any = [SimpleNamespace(label=label) for label in "abcd"]
-    made = frictional_pressing.Refined(
-        runs, Refinement.INCREMENTS, len, "h", orders, 1, {Followed.APPROACH: 1}
-    )
+    made = frictional_pressing.Refined(runs, "h", orders, 1, {Followed.APPROACH: 1})
     assert [one.levels for one in made.orders] == [tuple("abcd"), tuple("bcd")]
 
 
@@ -70,7 +67,6 @@ LONG = (
     "fem_hertz",
     "fem_increments",
     "fem_partial_slip",
-    "fem_penalty_indentation",
     "fem_torsion",
     "forced_effects",
     "fretting_loop",

@@ -31,7 +31,7 @@ LAYERS = (
     ("verification.judging",),
     ("verification.running", "verification.regression"),
     ("verification.cases", "verification.defects", "verification.challenge"),
-    ("verification.peers", "verification.adapters", "verification.studies"),
+    ("verification.studies",),
     ("verification.report", "verification.judged_by_pytest"),
     ("verification",),
     ("slipstick",),

@@ -109,11 +109,6 @@ def test_a_file_imports_what_lies_beside_it(
     )
 
 
-def test_our_own_solvers_are_named_by_their_module() -> None:
-    solver = "verification.adapters.own_solvers:answer_on_radii"
-    assert judge(solver, "--case", "coated_paraboloid/E1_over_E2=2", "--levels", "2") == 0
-
-
 # ---- functions that leave, hang or change what they are given -----------------------------------
 
 HOSTILE = """

@@ -49,7 +49,7 @@ OTHER_CASES = sorted({MODULE_OF.get(name, name) for name in CASES} - {"indenters
 NOT_OF_A_CASE = (
     *(f"verification.cases.{name}" for name in OTHER_CASES),
     *("fem_reference", "skfem", "matplotlib", "jinja2"),
-    *(f"verification.{name}" for name in ("studies", "defects", "peers")),
+    *(f"verification.{name}" for name in ("studies", "defects")),
     *(f"verification.report.{name}" for name in ("page", "drawing")),
 )
 QUICK = ("-o", "out", "--figures", "none", "--no-error")

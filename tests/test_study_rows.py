@@ -8,13 +8,10 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from verification.judging.outcome import Status
 from verification.running.study import (
-    RESIDUAL,
     CaseRecord,
     Row,
     TypedRow,
-    converged,
     found,
     json_text,
     parameters_of,
@@ -67,24 +64,6 @@ def test_parameters_are_the_plain_values_of_a_case() -> None:
 def test_cases_without_a_record_are_left_out() -> None:
     a, b = Asked("a"), Asked("b")
     assert found((a, b), {"b": CaseRecord()}) == {b: CaseRecord()}
-
-
-def residual(value: float | None) -> Row:
-    return Row(measures={RESIDUAL: value})
-
-
-@pytest.mark.parametrize(
-    ("values", "outcome"),
-    [
-        ([1e-9, 1e-8], Status.PASS),
-        ([1e-9, 2e-8], Status.FAIL),
-        ([1e-9, None, 1e-9], Status.FAIL),  # not finite
-    ],
-)
-def test_the_worst_residual_decides(values: list[float | None], outcome: Status) -> None:
-    said = converged([residual(v) for v in values], 1e-8, "in all")
-    assert said.outcome is outcome
-    assert ("not finite" in said.measured) == (None in values)
 
 
 said = st.text(st.sampled_from('[]{}", \n\\a'), max_size=6)

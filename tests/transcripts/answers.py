@@ -1,31 +1,28 @@
-"""Answers of a wrong solver to one challenge, and a function that solves another one wrongly."""
+"""Wrong answers to challenges, as files, and a function that solves another one wrongly.
 
+`answers.py FOLDER CLAIMS LEVEL...` completes `answers.json` of a folder. A level is its size h and
+its numbers QUANTITY.STEP=VALUE, VALUE±UNCERTAINTY or a list.
+"""
+
+import json
+import sys
 from pathlib import Path
 
 from verification import Answer
 
-ANSWERS = """level,load_step,quantity,value,unit,u,point
-1,1,approach,9.6e-6,m,1e-6,
-1,1,contact_radius,0.391,mm,,
-1,1,moment_x,0.13,N m,,
-1,1,moment_y,-0.1,N m,,
-2,1,approach,9.51e-6,m,1e-6,
-2,1,contact_radius,0.39,mm,,
-2,1,moment_x,0.102,N m,,
-2,1,moment_y,-0.09,N m,,
-"""
-LEVELS = """level,status,reason,h,h_unit,unknowns,cpu_seconds
-1,solved,,20,um,1000,1
-2,solved,,10,um,4000,5
-"""
-SOLVER = """[solver]
-name = "wrong"
-[convention]
-sampling = "point"
-[claims]
-grade = "B"
-order = { approach = 2 }
-"""
+
+def level_of(text):
+    """Level of an answer from its size and numbers."""
+    h, *given = text.split()
+    numbers = []
+    for one in given:
+        key, _, value = one.partition("=")
+        quantity, _, step = key.partition(".")
+        number, _, u = value.partition("±")
+        numbers.append({"quantity": quantity, "load_step": int(step), "value": json.loads(number)})
+        if u:
+            numbers[-1]["u"] = float(u)
+    return {"h": float(h), "numbers": numbers}
 
 
 def solve(problem, level):
@@ -36,5 +33,7 @@ def solve(problem, level):
 
 
 if __name__ == "__main__":
-    for name, text in {"answers.csv": ANSWERS, "levels.csv": LEVELS, "solver.toml": SOLVER}.items():
-        Path("tilted", name).write_text(text, encoding="utf-8")
+    file, claims = Path(sys.argv[1], "answers.json"), json.loads(sys.argv[2])
+    content = json.loads(file.read_text(encoding="utf-8"))
+    content |= {"solver": {"name": "wrong"} | claims, "levels": [*map(level_of, sys.argv[3:])]}
+    file.write_text(json.dumps(content, indent=1), encoding="utf-8")

@@ -57,7 +57,6 @@ CASES = (
     "torsion_coated",
     "thin_layer",
     "frictional_indentation",
-    "indentation_refinement",
     "sheared_increments",
     "no_slip_indentation",
     "spence_example",
@@ -80,7 +79,6 @@ CASES = (
     "cross_check",
     "external_codes",
     "fem_penalty_hertz",
-    "fem_penalty_indentation",
     "fem_penalty_slip",
     "layered_reference",
     "frf_laws",
@@ -116,9 +114,9 @@ MODULES = {
         *("radial_pressing", "layered_reference", "frf_laws"),
     ),
     "frictional_pressing": (
-        *("frictional_indentation", "indentation_refinement", "sheared_increments"),
+        *("frictional_indentation", "sheared_increments"),
         *("no_slip_indentation", "spence_example", "fem_indentation", "fem_increments"),
-        *("fem_penalty_indentation", "radial_indentation"),
+        "radial_indentation",
     ),
     "histories": (
         *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),

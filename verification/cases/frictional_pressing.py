@@ -14,7 +14,6 @@ from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import map_coordinates
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
@@ -28,7 +27,6 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.array_types import Field
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
@@ -166,26 +164,6 @@ SHEAR_AT_EDGE = error_norm(
 )
 
 
-def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """Interpolate a field on cells bilinearly to the centres of the cells of a coarser or finer
-    grid.
-
-    Both grids divide one window. Used to compare tractions on two grids. Means over the cells of
-    the other grid are no substitute: they have a first-order error on the whole surface.
-
-    cells  numbers of cells of the other grid along x and y
-    field  values at the cell centres of the first grid (components, n, m)
-    """
-    places = (
-        (np.arange(to) + 0.5) * of / to - 0.5
-        for to, of in zip(cells, field.shape[-2:], strict=True)
-    )
-    at = np.meshgrid(*places, indexing="ij")
-    # Beyond the outermost centres the value is constant.
-    found = [map_coordinates(one, at, order=1, mode="nearest") for one in field]
-    return np.stack(found)
-
-
 ONE = "1"
 STICK_PART = Observable(
     "stick_radius",
@@ -295,7 +273,7 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
             "stick zone.",
             "The stick disc of the coated body is a few cells wide; its radius is not judged.",
         ),
-        no_order=JUDGED_BY.format("indentation_refinement, in cells and in increments"),
+        no_order=JUDGED_BY.format("sheared_increments, in increments"),
         shows=("(9)", "(10)", "(13)", "coated friction", "shear at T = 0"),
     )
 
@@ -329,13 +307,11 @@ def change(
 
 @dataclass(frozen=True)
 class Refined:
-    """Hold runs with one refined discretisation parameter (cells or increments), coarse to fine.
+    """Hold runs with more and more increments, coarse to fine.
 
     The differences between the runs are judged by their order of convergence.
 
     runs      runs, coarse to fine
-    refined   refined parameter: mesh or increments
-    size      function from a result to the parameter h
     x_label   label of h in charts
     changes   differences whose order is judged
     apart     distance in the list between the two runs of a difference, for example 2
@@ -343,8 +319,6 @@ class Refined:
     """
 
     runs: tuple[AnyRun, ...]
-    refined: Refinement
-    size: Callable[[Any], float]
     x_label: str
     changes: tuple[Order, ...]
     apart: int
@@ -360,15 +334,15 @@ class Refined:
             replace(
                 one,
                 levels=labels[self.left_out.get(one.of, 0) :],
-                refined=self.refined,
-                size=self.size,
+                refined=Refinement.INCREMENTS,
+                size=_increment_size,
                 apart=self.apart,
             )
             for one in self.changes
         )
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Return a function that draws the differences between runs over the refined parameter h.
+        """Return a function that draws the differences between runs over the size of an increment.
 
         The function receives the results of a case by run label and returns the chart.
         """
@@ -380,7 +354,7 @@ class Refined:
                 name,
                 title,
                 caption,
-                [self.size(coarse) for coarse, _ in pairs],
+                [_increment_size(coarse) for coarse, _ in pairs],
                 {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
                 {one.of.value: one.expected for one in self.changes},
                 self.x_label,
@@ -405,14 +379,9 @@ def _shift_change(coarse: Any, fine: Any) -> float:
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the final shear between two grids, Σ|q_coarse - q_fine| / Σµp [1].
-
-    The shear of the fine grid is interpolated to the centres of the coarse cells. µ and p are the
-    friction coefficient and the pressure of the contact whose stick radius is half the contact
-    radius.
-    """
+    """Compute the difference of the final shear on one grid, Σ|q_coarse - q_fine| / Σµp [1]."""
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
-    size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
+    size = np.hypot(*(found - other))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
 
 
@@ -453,7 +422,6 @@ HALF = Indentation(
     Body(material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)),
     "self-similar (Spence 1975), to five digits",
 )
-FIVE_DIGITS = 0.5e-5 / 0.49972
 KEPT_SLIP = (
     "slip keeps its direction while the contact grows; the errors of the increments in the stick "
     "zone alternate and cancel in a mean"
@@ -462,158 +430,6 @@ FIXED_SHEAR = (
     "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves the "
     "friction limit as a square root: O(√h) on bands of width h"
 )
-
-
-def _half_on_cells(cells: int, increments: int) -> Run:
-    """Create the run on cells of the indentation whose stick radius is half the contact radius.
-
-    cells       number of cells per side
-    increments  number of increments of the only load step
-    """
-    return Run(
-        f"{cells}x{cells}, {increments} increments",
-        HALF.problem(20).scene,
-        square_grid(cells, WINDOW_PER_RADIUS / 2 * HALF.contact_radius),
-        effects=lambda plan: plan.cut_into((increments,)),
-    )
-
-
-def _approach_error(few: Any, many: Any) -> float:
-    extrapolated = approach(many) + (approach(many) - approach(few)) / 3
-    return abs(extrapolated / HALF.approach - 1)
-
-
-def _stick_error(few: Any, many: Any) -> float:
-    """Compute the relative error of the stick radius after linear extrapolation in the increment
-    size.
-
-    Two results with different numbers of increments are extrapolated to infinitely many increments.
-    The contact is the one whose stick radius is half the contact radius.
-
-    few   result with few increments
-    many  result with twice the increments
-    """
-    radius = 2 * stick_radius(many) - stick_radius(few)
-    return abs(radius / (HALF.stick_part * HALF.contact_radius) - 1)
-
-
-def indentation_refinement(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction under refined cells and increments.
-
-    At the quick level, approach and stick radius are extrapolated from two runs and compared with
-    Spence's solution. Other levels also judge the orders of convergence in the cells and in the
-    increments.
-    """
-    few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
-    # Changes are taken over two levels: a factor of 2 in cells or increments. Grids divide the
-    # contact in different ways, so that the order needs many grids. With more increments the stick
-    # edge moves by less than a cell in each, and the increment error is not resolved.
-    cells = (32, 38, 46, 54, 64, 76, 90, 108, 128, 152, 182, 214, 256)
-    increments = (2, 3, 4, 6, 8, 12, 16, 24, 32)
-    edges = (
-        "square-root edges of stick zone and contact: an error of O(√h) on rings one cell wide "
-        "leaves O(h^3/2) in L1"
-    )
-    meshes = Refined(
-        tuple(_half_on_cells(count, 20) for count in cells),
-        Refinement.MESH,
-        lambda result: result.grid.spacing[0] / HALF.contact_radius,
-        "cell side / contact radius",
-        (
-            change(
-                Followed.SHEAR,
-                "shear (L1) with 20 increments",
-                _shear_change,
-                1.5,
-                edges,
-                name="shear_in_cells",
-            ),
-        ),
-        apart=2,
-    )
-    paths = Refined(
-        tuple(_half_on_cells(128, count) for count in increments),
-        Refinement.INCREMENTS,
-        _increment_size,
-        "1 / increments",
-        (
-            change(
-                Followed.APPROACH,
-                "approach on 128 x 128 cells",
-                _approach_change,
-                2.0,
-                KEPT_SLIP,
-                name="approach_in_increments",
-            ),
-            change(
-                Followed.SHEAR,
-                "shear (L1) on 128 x 128 cells",
-                _shear_change,
-                1.5,
-                FIXED_SHEAR,
-                name="shear_in_increments",
-            ),
-        ),
-        apart=2,
-    )
-    series = () if level is Level.QUICK else (meshes, paths)
-    return case(
-        "indentation_refinement",
-        "Indentation with friction under refinement",
-        "The rigid ball on a body of ν = 0, with friction for which half of the contact radius "
-        "sticks. One series of runs refines the increments on one grid, the other refines the "
-        "grid with equal increments. Each series keeps the error of the other parameter. The "
-        "orders are therefore determined from the changes between neighbouring levels.",
-        runs=(few, many, *(run for one in series for run in one.runs)),
-        orders=tuple(order for one in series for order in one.orders),
-        quantities=(
-            compare_runs(
-                "approach",
-                "relative error of the approach, extrapolated from 8 and 16 "
-                "increments with second order",
-                (few.label, many.label),
-                _approach_error,
-                2e-4,
-                "accuracy target of frictional_indentation, there on 256 x 256 cells",
-                HALF.source,
-                ReferenceKind.SEMI_CLOSED,
-                FIVE_DIGITS,
-            ),
-            compare_runs(
-                "stick_radius",
-                "relative error of the stick radius, extrapolated from 8 and 16 increments",
-                (few.label, many.label),
-                _stick_error,
-                # Half a cell of the quick grid, over the stick radius.
-                0.5 * WINDOW_PER_RADIUS / 64 / HALF.stick_part,
-                "half a cell: the stick edge moves by cells from increment to increment",
-                HALF.source,
-                ReferenceKind.SEMI_CLOSED,
-                FIVE_DIGITS,
-            ),
-        ),
-        charts=(
-            meshes.chart(
-                "indentation_cells",
-                "Smaller cells",
-                "Change on grids finer by about √2 with 20 increments, against cell side.",
-            ),
-            paths.chart(
-                "indentation_increments",
-                "Smaller increments",
-                "Change by twice the increments on 128 x 128 cells.",
-            ),
-        )
-        if series
-        else (),
-        limits=(
-            "The stick radius scatters by a fraction of a cell from grid to grid, so that no "
-            "order can be judged. frictional_indentation judges the extrapolated stick radius.",
-        ),
-        equations=HALF.problem(1).equations,
-        no_order="" if series else "orders are judged above the quick level",
-        shows=("increments",),
-    )
 
 
 def sheared_increments(level: Level = Level.QUICK) -> Case:
@@ -658,8 +474,6 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
     )
     paths = Refined(
         runs,
-        Refinement.INCREMENTS,
-        _increment_size,
         "1 / increments of a step",
         (
             change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
@@ -672,7 +486,7 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
     return case(
         "sheared_increments",
         "Tangential loading of a coupled contact in smaller increments",
-        "The rigid ball of indentation_refinement is pressed on the body of ν = 0, with friction "
+        "A rigid ball is pressed on a body of ν = 0, with friction "
         f"of {HALF.friction:.2f}, and then loaded by a tangential force of {part:g} µW. Shear "
         "and pressure are coupled, and the slip turns from the radial direction to that of the "
         "force. The result depends on the load path and has no known exact solution. Each "
@@ -941,6 +755,32 @@ def _mesh_level(one: Indentation, elements: int, increments: int) -> RefinementL
     return named(f"{one.name}, {increments} increments", meshes)
 
 
+OF_SPRINGS = (
+    Within(APPROACH, 1e-3, PENALTY),
+    Within(CONTACT_RADIUS, part_of_side(0.12), "an eighth of an element: the last points ripple"),
+    Within(PRESSURE, 5e-3, PENALTY),
+    Within(SHEAR, 3e-2, PENALTY),
+    Reported(
+        error_norm(
+            "by_newton",
+            "increments that took Newton's method",
+            lambda result, *_: float(sum(i.path == "newton" for i in result.increments)),
+        ),
+        "all: no other method is required",
+    ),
+    Reported(
+        error_norm(
+            "systems",
+            "linear iterations per increment",
+            lambda result, *_: (
+                sum(i.iterations for i in result.increments) / len(result.increments)
+            ),
+        ),
+        "two passes each: penalty alone, then one augmentation",
+    ),
+)
+
+
 def fem_indentation(level: Level = Level.QUICK) -> Case:
     """Create the verification case of indentation with friction by finite elements with exact
     contact laws.
@@ -970,9 +810,20 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
         "Finite elements: indentation with friction",
         "The scenes of frictional_indentation by finite elements. The pressure solves a linear "
         "complementarity problem, the radial shear a quadratic program within the friction "
-        "limit; the two are iterated until they agree. There is no penalty: contact and stick "
-        "are exact in the mean over the hat functions of the tractions.",
+        "limit; the two are iterated until they agree. Contact and stick are exact in the mean "
+        "over the hat functions of the tractions. Runs with a penalty at Gauss points have "
+        "Coulomb's law by return mapping: a trial shear is computed from the state at the "
+        "preceding increment and scaled back to µp where it exceeds the limit.",
         *(judged(mesh, rows(one)) for one, mesh in meshes.items()),
+        *(
+            judged(
+                on_springs(
+                    _mesh_level(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty"
+                ),
+                OF_SPRINGS,
+            )
+            for one in meshes
+        ),
         charts=tuple(
             draw
             for one, mesh in meshes.items()
@@ -983,9 +834,11 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
         limits=(
             f"The shear is judged where the increments allow: {FEW} for µ = 0.1, {many} for "
             "µ = 0.3.",
+            f"With a penalty the shear is that of {FEW} increments, whose error is included: each "
+            "position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
         no_order=JUDGED_BY.format("fem_increments"),
-        shows=("finite elements", "coated friction"),
+        shows=("finite elements", "coated friction", "penalty"),
     )
 
 
@@ -1011,8 +864,6 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
             SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
             for count in (2, 3, 4, 6, 8, 12)
         ),
-        Refinement.INCREMENTS,
-        _increment_size,
         "1 / increments",
         (
             change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
@@ -1048,70 +899,6 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
         ),
         equations=HALF.problem(1).equations,
         shows=("finite elements", "increments"),
-    )
-
-
-def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction by finite elements with a penalty
-    method.
-
-    Coulomb's law is integrated by return mapping: a trial shear is scaled back to the friction
-    limit. Approach, contact radius, pressure and shear are compared with tabulated solutions.
-    """
-    rows = (
-        Within(APPROACH, 1e-3, PENALTY),
-        Within(
-            CONTACT_RADIUS, part_of_side(0.12), "an eighth of an element: the last points ripple"
-        ),
-        Within(PRESSURE, 5e-3, PENALTY),
-        Within(SHEAR, 3e-2, PENALTY),
-        Reported(
-            error_norm(
-                "by_newton",
-                "increments that took Newton's method",
-                lambda result, *_: float(sum(i.path == "newton" for i in result.increments)),
-            ),
-            "all: no other method is required",
-        ),
-        Reported(
-            error_norm(
-                "systems",
-                "linear iterations per increment",
-                lambda result, *_: (
-                    sum(i.iterations for i in result.increments) / len(result.increments)
-                ),
-            ),
-            "two passes each: penalty alone, then one augmentation",
-        ),
-    )
-    meshes = {
-        one: on_springs(
-            _mesh_level(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty"
-        )
-        for one in (WEAK, STRONG, COATED)
-    }
-    return case(
-        "fem_penalty_indentation",
-        "Finite elements with a penalty: indentation with friction",
-        "The scenes of fem_indentation with a penalty at Gauss points instead of exact contact, "
-        "and Coulomb's law by return mapping: a trial shear is computed from the state at the "
-        "preceding increment and scaled back to µp where it exceeds the limit. Pressure and "
-        "shear are solved by an alternating iteration; where that does not converge, together by "
-        "Newton's method with the consistent tangent.",
-        *(judged(mesh, rows) for mesh in meshes.values()),
-        charts=tuple(
-            draw
-            for one, mesh in meshes.items()
-            for draw in _profile_drawings(
-                mesh, one, "fem_penalty_indentation", "springs", "outward shear"
-            )
-        ),
-        limits=(
-            f"The shear is that of {FEW} increments, whose error is included in the judged "
-            "error: each position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
-        ),
-        no_order=JUDGED_BY.format("fem_increments"),
-        shows=("penalty",),
     )
 
 

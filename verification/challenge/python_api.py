@@ -563,11 +563,24 @@ def judge(
     KeyError
         For an unknown challenge. In this process, exceptions of `solve` are passed on.
     """
-    problem, answers = posed(name), []
-    with closing(answers_of(solve, problem, levels, seconds)) as given:
+    challenge, answers = challenges()[posed(name).name], []
+    with closing(answers_of(solve, posed(name), levels, seconds)) as given:
         for answer in given:
-            _refuse_other_quantities(answer, challenges()[name])
+            _refuse_other_quantities(answer, challenge)
             answers.append(answer)
+    own_name = solve if isinstance(solve, str) else getattr(solve, "__name__", "solver")
+    grade = None if at_least is None else Grade(at_least)
+    return judged(challenge, solver or Solver(own_name), checked(challenge, answers), grade)
+
+
+def checked(challenge: Challenge, answers: Sequence[Answer]) -> tuple[Answer, ...]:
+    """Return the answers of a code, from coarse to fine levels, if they can be judged.
+
+    Raises Refused for quantities that are not required, for levels in another order, and if nothing
+    is answered.
+    """
+    for answer in answers:
+        _refuse_other_quantities(answer, challenge)
     found = [one for one in answers if 0 not in one.gave_up]
     for coarse, fine in pairwise(found):
         if fine.h > coarse.h:
@@ -577,9 +590,7 @@ def judge(
             )
     if not any(one.scalars or one.points or one.fields or one.gave_up for one in answers):
         raise Refused("nothing is answered; there is nothing to judge")
-    own_name = solve if isinstance(solve, str) else getattr(solve, "__name__", "solver")
-    grade = None if at_least is None else Grade(at_least)
-    return judged(challenges()[name], solver or Solver(own_name), answers, grade)
+    return tuple(answers)
 
 
 def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:

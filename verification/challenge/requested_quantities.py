@@ -520,15 +520,6 @@ class Challenge:
             (_end_force(r.normal, nan), _end_force(r.tangential, (nan, nan))) for r in self.ramps
         ]
 
-    def one(self, quantity: str, step: int) -> AskedValue | None:
-        """Find the number, or numbers at points, that the challenge requires of a quantity in a
-        load step.
-
-        Returns None if the challenge does not require the quantity in this step.
-        """
-        found = (v for v in self.numbers if v.key == (quantity, step))
-        return next(found, None)
-
 
 def _end_force(control: Control[Value], unknown: Value) -> Value:
     return control.end if control.kind is ControlKind.FORCE else unknown
@@ -546,9 +537,6 @@ def _rounded(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _rounded(one) for name, one in value.items()}
     return value
-
-
-SAMPLINGS = ("point", "cell")
 
 
 @dataclass(frozen=True)

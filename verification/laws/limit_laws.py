@@ -1,7 +1,7 @@
 """Laws of the surface frequency response function (FRF) of layered bodies.
 
 The FRF is the surface displacement per unit traction in Fourier space. The laws are limits, bounds,
-monotonicity, symmetries and positive energy.
+monotonicity, equal descriptions of one body, and positive energy.
 
 Each function draws a random layered body and returns the violation of one law.
 """
@@ -37,7 +37,6 @@ class Law:
     FRF (frequency response function): surface displacement per unit traction of a wavenumber.
 
     name       name of the verdict on the law
-    number     number in the list of properties, P1 to P19
     statement  law in words
     violation  function from a random generator to the relative violation for one random body
     allowed    accepted violation, due to rounding or to the next order of the law
@@ -45,7 +44,6 @@ class Law:
     """
 
     name: str
-    number: str
     statement: str
     violation: Callable[[Generator], float]
     allowed: float = ROUNDING
@@ -138,23 +136,6 @@ def wave_vector(rng: Generator) -> tuple[float, float]:
 ECHO = 50.0
 
 
-def _thin_layer_order_error(rng: Generator) -> float:
-    """Compute the deviation from 1 of the order in h at which the effect of a thin layer vanishes.
-
-    h is the thickness of a layer on a half-space. The random modulus ratio is up to 100 or down to
-    1/100. The effect is the change of the surface response (FRF).
-    """
-    base = half_space(rng)
-    coating = base.shear_modulus * decades(rng, -2, 2), half_space(rng).poisson_ratio
-    limit = np.array(scalars(Stack((), base), 1.0))
-    far, near = (
-        np.abs(np.array(scalars(Stack([(*coating, h)], base), 1.0)) - limit).max()
-        for h in (2e-6, 1e-6)
-    )
-    # A smaller difference is rounding and has no order.
-    return abs(float(np.log2(far / near)) - 1) if near > 1e-12 * limit.max() else 0.0
-
-
 def _thick_layer_error(rng: Generator) -> float:
     """Compute the effect of all that lies below the outer layer on the surface response, over its
     bound.
@@ -184,52 +165,6 @@ def _stiffer_layer_deficit(rng: Generator) -> float:
     return deficit(response_matrix(body, *k), response_matrix(stiffer, *k))
 
 
-def _less_compressible_deficit(rng: Generator) -> float:
-    body, k = stack(rng), wave_vector(rng)
-    low, high = sorted((body.layers[0].poisson_ratio, half_space(rng).poisson_ratio))
-    return deficit(
-        *(
-            response_matrix(_replace_layer(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
-            for nu in (low, high)
-        )
-    )
-
-
-def _thicker_layer_deficit(rng: Generator) -> float:
-    (G, nu), k = half_space(rng), wave_vector(rng)
-    soft, h, factor = G / decades(rng, 0, 3), film(rng).thickness, rng.uniform(1, 10)
-    thick, thin = (response_matrix(Stack([(soft, nu, t)], (G, nu)), *k) for t in (factor * h, h))
-    return deficit(thick, thin)
-
-
-def _half_space_bounds_deficit(rng: Generator) -> float:
-    one, other, k = half_space(rng), half_space(rng), wave_vector(rng)
-    soft = HalfSpace(*map(min, one, other))
-    stiff = HalfSpace(*map(max, one, other))
-    F = response_matrix(Stack([(*soft, film(rng).thickness)], stiff), *k)
-    below = response_matrix(Stack((), soft), *k)
-    return max(deficit(below, F), deficit(F, response_matrix(Stack((), stiff), *k)))
-
-
-def _rigid_base_order_error(rng: Generator) -> float:
-    """Compute the deviation from 1 of the order in 1/G at which a stiff base approaches a rigid
-    base.
-
-    G is the shear modulus of the base below random layers. The compared quantity is the surface
-    response (FRF).
-    """
-    films = [film(rng) for _ in range(rng.integers(1, 4))]
-    x = decades(rng, -2, 1)
-    alpha = x / films[-1].thickness
-    rigid = np.array(scalars(Stack(films), alpha))
-    G = films[-1].shear_modulus * 1e4 * max(1.0, 1 / x)
-    far, near = (
-        np.abs(np.array(scalars(Stack(films, (stiff, 0.3)), alpha)) - rigid).max()
-        for stiff in (G, 2 * G)
-    )
-    return abs(float(np.log2(far / near)) - 1) if near > 1e-10 * rigid.max() else 0.0
-
-
 def _long_wave_error(rng: Generator) -> float:
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     softest = min(f.shear_modulus for f in films)
@@ -252,20 +187,6 @@ def _incompressible_limit_error(rng: Generator) -> float:
     # d(1/M)/d(nu) = -4/G per unit thickness, at most, and a few more for c11 and c12.
     scale = limit.max() + min(h, 1 / alpha) / G
     return float(np.abs(close - limit).max() / scale)
-
-
-def _layer_echo_excess(rng: Generator) -> float:
-    """Compute the reflection from the interface of a layer in the surface response, over its bound
-    [1].
-
-    The response (FRF) of a random body with one layer is that of a half-space plus the reflection.
-    The bound is proportional to (1 + x²) e^(-2x) with x = wavenumber times layer thickness.
-    """
-    body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
-    G, _, h = body.layers[0][:3]
-    echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
-    bound = (ECHO if x < 2 else ECHO / 3) * (1 + x * x) * np.exp(-2 * x)
-    return float(np.abs(echo).max() / bound)
 
 
 def _count_non_finite_entries(rng: Generator) -> float:
@@ -306,107 +227,6 @@ def _replace_layer(body: Stack, place: int, new: Film) -> Stack:
     return Stack([*body.layers[:place], new, *body.layers[place + 1 :]], body.base)
 
 
-LIMIT_LAWS = (
-    Law(
-        "thin_layer_order",
-        "P9",
-        "the effect of a thin layer vanishes at first order in h; "
-        "distance of the observed order from one",
-        _thin_layer_order_error,
-        0.02,
-    ),
-    Law(
-        "thick_layer",
-        "P10",
-        "short waves depend only on the outer layer; distance over the "
-        "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh",
-        _thick_layer_error,
-        1.0,
-    ),
-    Law(
-        "stiffer",
-        "P12",
-        "a stiffer material in any layer reduces the compliance (Loewner order)",
-        _stiffer_layer_deficit,
-    ),
-    Law(
-        "less_compressible",
-        "P12",
-        "a larger ν at fixed G reduces the compliance",
-        _less_compressible_deficit,
-    ),
-    Law("thicker", "P13", "a thicker soft layer increases the compliance", _thicker_layer_deficit),
-    Law(
-        "between",
-        "P13",
-        "the response lies between those of the two half-spaces",
-        _half_space_bounds_deficit,
-    ),
-    Law(
-        "rigid_limit_order",
-        "P14",
-        "a rigid base is the limit of stiff ones at first order in "
-        "1/G; distance of the observed order from one",
-        _rigid_base_order_error,
-        0.02,
-    ),
-    Law(
-        "long_waves",
-        "P14",
-        "long waves over a rigid base shear and squeeze every layer uniformly",
-        _long_wave_error,
-        1e-8,
-    ),
-    Law(
-        "incompressible",
-        "P15",
-        "the response is continuous at ν = ½: the difference from ν = ½ - 1e-13",
-        _incompressible_limit_error,
-        1e-12,
-    ),
-    Law(
-        "echo",
-        "P16",
-        "the remainder of one layer decays as its echo; over the bound",
-        _layer_echo_excess,
-        1.0,
-    ),
-    Law(
-        "finite",
-        "P17",
-        "the response is finite up to αh = 1e8: number of entries that are not finite",
-        _count_non_finite_entries,
-        0.5,
-    ),
-    Law(
-        "depth",
-        "P18",
-        "traction and displacement at z = 0 are the applied traction and the "
-        "FRF; traction and displacement are continuous at interfaces",
-        _interface_jump,
-        1e-12,
-    ),
-)
-
-
-def _reciprocity_error(rng: Generator) -> float:
-    F = response_matrix(stack(rng), *wave_vector(rng))
-    return apart(F, F.conj().T)
-
-
-def _real_response_error(rng: Generator) -> float:
-    body, (m, n) = stack(rng), wave_vector(rng)
-    return apart(response_matrix(body, -m, -n), response_matrix(body, m, n).conj())
-
-
-def _parity_error(rng: Generator) -> float:
-    body, (m, n) = stack(rng), wave_vector(rng)
-    F, turned = response_matrix(body, m, n), response_matrix(body, -m, -n)
-    sign = np.array([[1, 1, -1], [1, 1, -1], [-1, -1, 1]])
-    imaginary = np.where(sign > 0, F.imag, F.real)
-    return max(apart(turned, sign * F), float(np.abs(imaginary).max() / np.abs(F).max()))
-
-
 def _negative_energy(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
     c11, c12, c22, csh = scalars(body, np.hypot(*k))
@@ -414,23 +234,6 @@ def _negative_energy(rng: Generator) -> float:
         return np.inf
     F = response_matrix(body, *k)
     return max(0.0, -float(np.linalg.eigvalsh(F).min() / np.abs(F).max()))
-
-
-def _rotation_error(rng: Generator) -> float:
-    body, k, angle = stack(rng), wave_vector(rng), rng.uniform(-np.pi, np.pi)
-    cos, sin = np.cos(angle), np.sin(angle)
-    Q = np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]) @ np.diag([1, rng.choice([-1, 1]), 1])
-    m, n = Q[:2, :2] @ k
-    return apart(response_matrix(body, m, n), Q @ response_matrix(body, *k) @ Q.T)
-
-
-def _scaling_error(rng: Generator) -> float:
-    body, (m, n) = stack(rng), wave_vector(rng)
-    length, stiffness = decades(rng, -3, 3), decades(rng, -3, 3)
-    films = [(G * stiffness, nu, h * length) for G, nu, h, *_ in body.layers]
-    base = None if body.base is None else (body.base[0] * stiffness, body.base[1])
-    scaled = response_matrix(Stack(films, base), m / length, n / length)
-    return apart(scaled, response_matrix(body, m, n) * length / stiffness)
 
 
 def _homogeneous_layers_error(rng: Generator) -> float:
@@ -490,65 +293,71 @@ def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray
     return np.block([[K["xx"][at], xy, -zx], [xy, K["yy"][at], -zy], [zx, zy, K["zz"][at]]])
 
 
-SYMMETRY_LAWS = (
-    Law("hermitian", "P1", "F is Hermitian (Betti's reciprocity)", _reciprocity_error),
-    Law(
-        "real",
-        "P2",
-        "real tractions give real displacements: F(-m, -n) = conj F(m, n)",
-        _real_response_error,
-    ),
-    Law(
-        "parity",
-        "P3",
-        "normal-tangential entries are imaginary and odd, all others real and even",
-        _parity_error,
-    ),
+LAWS = (
     Law(
         "positive_definite",
-        "P4",
         "strain energy is positive: all eigenvalues of F are > 0",
         _negative_energy,
     ),
     Law(
-        "rotation",
-        "P5",
-        "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes; P6, the "
-        "exchange of x and y, is one of them",
-        _rotation_error,
-    ),
-    Law(
-        "scaling",
-        "P7",
-        "lengths and moduli scale out: α G F depends on α h and ratios",
-        _scaling_error,
-    ),
-    Law(
         "homogeneous",
-        "P8",
         "layers of the substrate's material have no effect",
         _homogeneous_layers_error,
     ),
     Law(
         "cutting",
-        "P11",
         "the division of a layer into layers of its material has no effect",
         _cut_layer_error,
         1e-11,
     ),
     Law(
         "no_thickness",
-        "P11",
         "a layer of any material with vanishing thickness has no effect",
         _vanishing_layer_error,
     ),
     Law(
         "discrete_energy",
-        "P19",
         "the matrix of influence coefficients of all three components is positive, on cells no "
         "wider than the total thickness of the layers",
         _negative_operator_energy,
         1e-11,
         40,
+    ),
+    Law(
+        "thick_layer",
+        "short waves depend only on the outer layer; distance over the "
+        "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh",
+        _thick_layer_error,
+        1.0,
+    ),
+    Law(
+        "stiffer",
+        "a stiffer material in any layer reduces the compliance (Loewner order)",
+        _stiffer_layer_deficit,
+    ),
+    Law(
+        "long_waves",
+        "long waves over a rigid base shear and squeeze every layer uniformly",
+        _long_wave_error,
+        1e-8,
+    ),
+    Law(
+        "incompressible",
+        "the response is continuous at ν = ½: the difference from ν = ½ - 1e-13",
+        _incompressible_limit_error,
+        1e-12,
+    ),
+    Law(
+        "finite",
+        "the response is finite up to αh = 1e8: number of entries that are not finite",
+        _count_non_finite_entries,
+        0.5,
+    ),
+    Law(
+        "depth",
+        "traction and displacement at z = 0 are the applied traction and the "
+        "FRF; traction and displacement are continuous at interfaces",
+        _interface_jump,
+        1e-12,
     ),
 )

@@ -6,7 +6,6 @@ page.
 
 from __future__ import annotations
 
-import hashlib
 import io
 import re
 from html import escape
@@ -218,13 +217,12 @@ VARIABLES = {
     **{colour: f"--series-{n}" for n, colour in enumerate(style.LINE_COLOURS, 1)},
 }
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
-NUMBER = re.compile(r"-?\d+\.\d+")
-DIGITS = 6  # of the digest that stands for the name of a diagram
-DECIMALS = 1  # of a point, 1/72 inch
-# Decimals of coordinates below SMALL, which the shapes of marks have.
-FINE_DECIMALS = 2
-SMALL = 10.0
-REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')
+NUMBER = re.compile(r"-?\d+\.\d{3,}")
+LENGTHS = re.compile(r' (?:d|x|y|width|height|points|transform|viewBox)="[^"]*"')
+# Elements to which matplotlib's own references point have ids without an underscore.
+UNUSED = re.compile(
+    r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>| id=\"\w[\w.]*_\d+\"", re.DOTALL
+)
 
 
 def inline_svg(chart: Chart, prefix: str = "") -> str:
@@ -233,67 +231,18 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
 
     prefix  prefix of the ids, for a chart that a page shows twice
     """
+    name = re.sub(r"[^A-Za-z0-9_.-]", "_", prefix + chart.name)
     with style.figure_style():
         # Text stays text: it can be searched, read out, and takes the page's colour.
-        matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": chart.name})
+        matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": name})
         buffer = io.StringIO()
         draw(chart).savefig(buffer, format="svg", metadata=NO_METADATA)
-    svg = buffer.getvalue()
-    name = re.sub(r"[^A-Za-z0-9_.-]", "_", prefix + chart.name)
-    svg = compact(svg[svg.index("<svg") :].strip(), name)
+    # The page sets the font family.
+    svg = re.sub(r"\s+|font-family:[^;\"]*;?", " ", UNUSED.sub("", buffer.getvalue()))
+    svg = LENGTHS.sub(lambda m: NUMBER.sub(lambda n: f"{float(n[0]):.2f}", m[0]), svg)
     for colour, variable in VARIABLES.items():
         svg = re.sub(re.escape(colour), f"var({variable})", svg, flags=re.IGNORECASE)
-    opening, rest = svg.split(">", 1)
+    opening, rest = svg[svg.index("<svg") :].strip().split(">", 1)
     opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
     title = f'<title id="{name}-name">{escape(chart.title)}</title>'
     return f'{opening} role="img" aria-labelledby="{name}-name">{title}{rest}'
-
-
-def compact(svg: str, name: str) -> str:
-    """Remove the parts of the SVG text of matplotlib that an HTML page does not need.
-
-    name  name that is unique in the page, so that diagrams cannot refer to each other's elements
-    """
-    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
-    svg = re.sub(r"<!--.*?-->|<style.*?</style>", "", svg, flags=re.DOTALL)
-    svg = _with_own_ids(svg, name)
-    svg = re.sub(r' style="([^"]*)"', _short_style, svg)
-    svg = re.sub(r' transform="rotate\(-?0 [^"]*\)"', "", svg)
-    svg = re.sub(r' (d|x|y|width|height|points|transform|viewBox)="([^"]*)"', _short_numbers, svg)
-    svg = re.sub(r' (?:xmlns(?::xlink)?|version)="[^"]*"', "", svg.replace("xlink:href", "href"))
-    return re.sub(r"> <", "><", re.sub(r"\s*\n\s*", " ", svg))
-
-
-def _with_own_ids(svg: str, name: str) -> str:
-    """Rename those ids in the SVG text of a diagram that are referred to, and remove the other ids.
-
-    The new ids contain a digest of `name`, so that several diagrams on a page do not share ids.
-    """
-    wanted = set(REFERENCE.findall(svg))
-    kept = [i for i in re.findall(r'\bid="([^"]*)"', svg) if i in wanted]
-    short = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]
-    new = {old: f"f{short}.{number}" for number, old in enumerate(dict.fromkeys(kept))}
-    svg = re.sub(r' id="([^"]*)"', lambda m: f' id="{new[m[1]]}"' if m[1] in new else "", svg)
-    return re.sub(r'(xlink:href="#|url\(#)([^")]*)', lambda m: m[1] + new[m[2]], svg)
-
-
-def _short_style(match: re.Match[str]) -> str:
-    """Return the style attribute of an SVG element without spaces and without the font family.
-
-    The page sets the font family.
-
-    match  match of the attribute in the SVG text
-    """
-    parts = [part.strip().replace(": ", ":") for part in match[1].split(";")]
-    return f' style="{";".join(p for p in parts if p and not p.startswith("font-family"))}"'
-
-
-def _short_numbers(match: re.Match[str]) -> str:
-    text = NUMBER.sub(lambda number: _short_number(float(number[0])), match[2])
-    text = re.sub(r"\s+", " ", text).strip()
-    return f' {match[1]}="{re.sub(r" ?([MLQCz]) ?", lambda m: m[1], text)}"'
-
-
-def _short_number(value: float) -> str:
-    decimals = FINE_DECIMALS if abs(value) < SMALL else DECIMALS
-    return f"{value:.{decimals}f}".rstrip("0").rstrip(".")

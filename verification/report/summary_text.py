@@ -44,7 +44,6 @@ TITLES = {
     "error-coverage": "Coverage of stated errors",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
-    "scoreboard": "Other codes on the same problems",
 }
 PROMISES = {
     "work-precision": "Know what accuracy costs",

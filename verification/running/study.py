@@ -8,7 +8,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
@@ -19,9 +18,9 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar
 from pydantic import Field, model_validator
 
 from contact_scene.reading.description import Description
-from verification.exhibits.chart import Chart, Table, plain
+from verification.exhibits.chart import Chart, Table
 from verification.judging.case import Level
-from verification.judging.outcome import Status, commit_text, finite
+from verification.judging.outcome import Status, commit_text
 from verification.running.provenance import Provenance, age_text
 
 Value = str | bool | int | float | None
@@ -232,12 +231,10 @@ class Settings:
 
     level   quick, standard or full; determines all values that are None
     cells   cells per side of the finest grid; None for the value of the level
-    levels  number of refinement levels; None for the value of the level
     """
 
     level: Level
     cells: int | None = None
-    levels: int | None = None
 
 
 class Statement(Description):
@@ -429,25 +426,4 @@ def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
         outcome=judged(count == asked),
         measured=f"{count} of {asked}{what and ' '}{what}",
         about=Row(counters={"found": count, "asked": asked}),
-    )
-
-
-def converged(rows: Sequence[Row], tolerance: float, where: str) -> Statement:
-    """Create the statement of a study that all increments converged, with its outcome.
-
-    The claim holds if the largest residual of each case is within the tolerance.
-
-    rows       records with the largest residual of each case
-    tolerance  largest residual that is allowed [1]
-    where      words appended to the residual
-    """
-    residuals = [row.measures[RESIDUAL] for row in rows]
-    # A residual that is null is not finite.
-    worst = max((math.inf if one is None else one for one in residuals), default=0.0)
-    return Statement(
-        claim="every increment converged",
-        outcome=judged(worst <= tolerance),
-        measured=f"largest residual {plain(finite(worst), 2)} {where}",
-        because=f"allowed {tolerance:g}",
-        about=Row(measures={RESIDUAL: finite(worst)}),
     )

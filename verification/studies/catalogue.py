@@ -3,7 +3,6 @@
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.error_coverage import STUDY as ERROR_COVERAGE
-from verification.studies.scoreboard import STUDY as SCOREBOARD
 from verification.studies.seeded_defects import STUDY as SEEDED_DEFECTS
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision import STUDY as WORK_PRECISION
@@ -16,6 +15,5 @@ STUDIES: dict[str, Study] = {
         SEEDED_DEFECTS,
         WORK_PRECISION,
         ERROR_COVERAGE,
-        SCOREBOARD,
     )
 }

@@ -12,6 +12,7 @@ is ∫|Δp| dx / ∫p dx or ∫|Δq| dx / ∫µp dx on y = 0.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -36,6 +37,7 @@ from verification.exhibits.chart import (
     table_of,
 )
 from verification.judging.case import SOLVER_TOLERANCE, Level
+from verification.judging.outcome import finite
 from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
@@ -58,7 +60,6 @@ from verification.running.study import (
     Settings,
     Statement,
     Study,
-    converged,
     found,
     judged,
     parameters_of,
@@ -268,7 +269,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
                 + ", ".join(f"{name}: {100 * part:.2f} %" for name, part in stick.items()),
                 because="a finding: the last stick zone vanishes later",
             ),
-            converged(tuple(fine.values()), SOLVER_TOLERANCE, "in the fine solves"),
+            _converged(tuple(fine.values())),
         ),
         tables=(_difference_table(rows),),
         charts=tuple(_traction_figure(curves, field) for field in range(2)) if curves else (),
@@ -345,6 +346,19 @@ def _shear_without_force(curves: Drawn) -> Statement:
         measured=f"|∫q| / ∫|q| ≤ {plain(float(worst), 2)}; largest |q| at least "
         f"{min((np.abs(q).max() for q in shears), default=0.0):.2f} µp_H",
         because="bodies of different moduli move past each other under pressure alone",
+    )
+
+
+def _converged(rows: Sequence[Row]) -> Statement:
+    residuals = [row.measures[RESIDUAL] for row in rows]
+    # A residual that is null is not finite.
+    worst = max((math.inf if one is None else one for one in residuals), default=0.0)
+    return Statement(
+        claim="every increment converged",
+        outcome=judged(worst <= SOLVER_TOLERANCE),
+        measured=f"largest residual {plain(finite(worst), 2)} in the fine solves",
+        because=f"allowed {SOLVER_TOLERANCE:g}",
+        about=Row(measures={RESIDUAL: finite(worst)}),
     )
 
 

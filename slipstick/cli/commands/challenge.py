@@ -34,10 +34,9 @@ def challenge(
         bool, typer.Option("--blind", help="Omit the reference and the scales.")
     ] = False,
 ) -> None:
-    """Export a problem for another code: scene, description, empty tables, and the reference.
+    """Export a problem for another code: scene, description, empty answers, and the reference.
 
-    Fill in answers.csv, levels.csv and solver.toml, then run 'slipstick judge DIR'. The answer does
-    not need slipstick.
+    Complete answers.json, then run 'slipstick judge DIR'. The answer does not need slipstick.
     """
     known = challenges()
     if action is Action.LIST:
@@ -54,4 +53,4 @@ def challenge(
     refuse_unknown("challenge", [case], known, "slipstick challenge list")
     folder = output or Path(f"challenge-{case.replace('/', '-')}")
     export(known[case], folder, blind=blind)
-    typer.echo(f"{folder}: read problem.md, fill in answers.csv, then: slipstick judge {folder}")
+    typer.echo(f"{folder}: read problem.md, complete answers.json, then: slipstick judge {folder}")
