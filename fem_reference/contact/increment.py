@@ -273,12 +273,10 @@ class _Increment:
         moved = self.largest_displacement(one) + least * abs(one.solution.approach)
         shear, pressure, share = one.solution.shear, one.solution.pressure, one.overlap_share
         by_pressure, _ = self.contact.compliance.displacement(pressure, np.zeros_like(shear))
-        strain, by_pressure = (
-            over(self.shear_weighted_mean(one, vectors), moved)
-            for vectors in (one.strain[:2], by_pressure)
-        )
+        strain = over(self.shear_weighted_mean(one, one.strain[:2]), moved)
         if not self.contact.at_gauss_points:
-            return max(share, strain, share * by_pressure)
+            slip = over(self.shear_weighted_mean(one, by_pressure), moved)
+            return max(share, strain, share * slip)
         rings = self.contact.rings
         touching = np.flatnonzero(one.solution.pressure > 0)
         reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
