@@ -315,16 +315,20 @@ def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> N
         np.testing.assert_allclose(end.tangential_shift, shift, atol=1e-9 * APPROACH, rtol=0)
 
 
-@pytest.mark.parametrize("solver", [name for name in SOLVERS if name != "fem"])
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_little_friction_shears_in_proportion_to_it(solver: Any) -> None:
-    """But for terms of the order µ, and a penalty, whose augmentations change the pressure."""
-    found = []
-    for mu in (1e-4, 1e-7):
+    """But for terms of the order µ, and the overlap of a penalty; its passes scatter by round-off
+    over µ."""
+    found, on, least, near = [], SOLVERS[solver], 1e-7, 1e-4
+    if solver == "fem":
+        on = FiniteElementDiscretisation(elements_per_radius=8, harmonics=4, overlap=1e-5)
+        least, near = 1e-6, 1e-3
+    for mu in (1e-4, least):
         loading = press(increments=1), push(0.6, friction=mu, increments=1)
         described = UNLIKE(*loading, body=bulk(0.3), friction=mu)
-        end = slipstick.solve(described, solver, SOLVERS[solver]).steps[-1]
+        end = slipstick.solve(described, solver, on).steps[-1]
         found.append((end.tangential_shift[0] / mu, end.stick_area))
-    np.testing.assert_allclose(found[1], found[0], rtol=1e-4)
+    np.testing.assert_allclose(found[1], found[0], rtol=near)
 
 
 TILTED = {"moment": (0.1 * LOAD * A, 0.3 * LOAD * A)}

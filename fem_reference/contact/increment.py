@@ -220,17 +220,19 @@ class _Increment:
         """Solve the contact problem of the increment with the initial penalty multipliers.
 
         The multipliers are the tractions at zero deformation of the penalty springs. Without a
-        penalty they are zero, and this pass is the only one. With a penalty at nodes they are the
-        tractions at the start of the increment, or zero if updates are not allowed. At Gauss points
-        the multiplier of the shear is the shear at the start. The multiplier of the pressure is
-        zero there, because pressure oscillations would otherwise accumulate over the increments.
+        penalty they are zero, and this pass is the only one. With a penalty they are the shear at
+        the start of the increment and, at nodes, the multiplier of the pressure at the start, so
+        that the pressure changes with the loads only. An updated multiplier would change it without
+        a load, and this change slips coupled bodies. At Gauss points the multiplier of the pressure
+        is zero, because pressure oscillations would otherwise accumulate over the increments. At
+        nodes both are zero if updates are not allowed.
         """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
         if self.contact.at_gauss_points:
             multiplier[:2] = before.shear
         elif penalty is not None and penalty.augmentations > 0:
-            multiplier = before.tractions
+            multiplier = np.concatenate([before.shear, before.multiplier[2:]])
         return self._solve_pass(multiplier, before.tractions, before.motions or AT_REST)
 
     def next_pass(self, last: _Pass) -> _Pass:
@@ -252,10 +254,13 @@ class _Increment:
     def penalty_error(self, one: _Pass) -> float:
         """Compute the relative error [1] of one penalty pass by the deformation of its springs.
 
-        Passes are repeated until this error is allowed. The error is the larger of two ratios. The
-        first is the largest overlap of the surfaces over the rigid approach. The second is the
-        tangential strain of the springs over the largest tangential displacement in the history,
-        both as means weighted with the shear.
+        Passes are repeated until this error is allowed. The error is the largest of three ratios.
+        The first is the largest overlap of the surfaces over the rigid approach. The second is the
+        tangential strain of the springs over the largest tangential displacement by shear in the
+        history, both as means weighted with the shear. The third is the first times the ratio of
+        the tangential displacements by pressure and by shear: the overlap changes the pressure in
+        this proportion, and an update of its multiplier slips coupled bodies without a load. The
+        third applies at nodes only: at Gauss points every increment starts without a multiplier.
 
         At Gauss points the error is multiplied by (WIDEST_ZONE × a/b)², at most 1. Here a is the
         contact radius and b the outer radius of the mesh's contact zone. The discretisation error
@@ -264,25 +269,36 @@ class _Increment:
 
         one  solution of the pass
         """
-        moved = self.largest_displacement(one) + ROUND_OFF * abs(one.solution.approach)
-        left = max(one.overlap_share, over(self.shear_weighted_mean(one, one.strain[:2]), moved))
+        least = ROUND_OFF * min(1.0, self.contact.friction.largest)
+        moved = self.largest_displacement(one) + least * abs(one.solution.approach)
+        shear, pressure, share = one.solution.shear, one.solution.pressure, one.overlap_share
+        by_pressure, _ = self.contact.compliance.displacement(pressure, np.zeros_like(shear))
+        strain = over(self.shear_weighted_mean(one, one.strain[:2]), moved)
         if not self.contact.at_gauss_points:
-            return left
+            slip = over(self.shear_weighted_mean(one, by_pressure), moved)
+            return max(share, strain, share * slip)
         rings = self.contact.rings
         touching = np.flatnonzero(one.solution.pressure > 0)
         reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
-        return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
+        return max(share, strain) * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def largest_displacement(self, one: _Pass) -> float:
-        """Compute the largest mean tangential displacement of the bodies in the load history.
+        """Compute the largest mean displacement of the bodies by shear in the load history.
 
         The result [length] is the maximum over all increments, up to the given pass. The mean is
         taken over the contact, weighted with the shear. The tangential error of the penalty springs
-        is divided by this displacement.
+        is divided by this displacement. The displacement of coupled bodies by pressure is left out,
+        because it does not decrease with the coefficient of friction.
 
         one  solution of a pass of the current increment
         """
-        return max(self.before.moved, self.shear_weighted_mean(one, one.displacement))
+        by_shear = self._displacement_by_shear(one.solution.shear)
+        by_shear -= self.contact.compliance.springs * one.solution.shear
+        return max(self.before.moved, self.shear_weighted_mean(one, by_shear))
+
+    def _displacement_by_shear(self, shear: Field) -> Field:
+        """Compute the tangential displacement by shear without pressure (2, points) [length]."""
+        return self.contact.compliance.displacement(np.zeros_like(shear[0]), shear)[0]
 
     def shear_weighted_mean(self, one: _Pass, vectors: Field) -> float:
         """Compute the mean length of tangential vectors over the contact, weighted with the shear.
@@ -516,8 +532,8 @@ class _Increment:
         if passed is not None:
             # Displacement by shear alone: under full stick from the start, a rigid motion has no
             # such displacement.
-            by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-            moved = np.maximum(np.abs(by_shear), np.abs(self.before.displacement))
+            by_shear = np.abs(self._displacement_by_shear(q))
+            moved = np.maximum(by_shear, np.abs(self.before.displacement))
             moved = np.maximum(moved, ROUND_OFF * approach)
             direction = slip_direction(w * q, w * bound, passed, moved)
         acting, loads = problem.compliance.acting, problem.tangential.loads

@@ -40,8 +40,8 @@ class PointState:
                     magnitude of the change of the shear times that of the slip in the last
                     increment, integrated over the contact [force length]
     overlap         largest overlap that the penalty springs permit [length]
-    moved           largest mean tangential displacement in the history, weighted with the shear
-                    [length]
+    moved           largest mean tangential displacement by shear in the history, weighted with the
+                    shear [length]
     outer_iterations, solves
                     numbers of outer iterations and of linear iterations
     augmentations   number of augmented-Lagrangian updates of the multipliers
