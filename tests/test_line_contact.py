@@ -1,11 +1,13 @@
 """Laws of line contacts: coefficients of strips, closed forms, loads per length, refusals."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import fem_reference
+from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.body_regions import BodyRegions
 from contact_results.stress.loaded_bodies import state_of_result
@@ -225,6 +227,29 @@ def test_a_bent_layer_has_its_tension_beyond_the_contact(widths: float, region: 
     assert other.value == pytest.approx(one.value, rel=0.1)
     assert abs(other.x) == pytest.approx(abs(one.x), rel=0.1)
     assert abs(other.x) > 1.5 * thickness
+
+
+@pytest.mark.parametrize("widths", [1.0, 20.0])
+def test_the_errors_of_stresses_far_from_the_contact_are_covered(widths: float) -> None:
+    """Elements grow with the distance, at the interface and where a bent layer has its tension."""
+    coat = {"thickness": widths * HALF_WIDTH, "material": STEEL | {"young_modulus": 420e9}}
+    body = {"material": STEEL, "layers": [coat]}
+    pressed = ({"normal_force": FORCE},)
+    state = state_of_result(solved_on_elements(*pressed, body=body, friction=None), 1)
+    field = body_response(state).stress()
+    found = extremes(field)
+    strips = state_of_result(solved(*pressed, body=body, friction=None), 1)
+    known = {(e.region, e.measure): e.value for e in extremes(body_response(strips).stress())}
+    errors = stress_errors(replace(state, by_increments=0.0), field, found)
+    judged = 0
+    for one, error in zip(found, errors, strict=True):
+        if one.region.split()[0] in ("base", "interface") and (one.region, one.measure) in known:
+            exact = known[one.region, one.measure]
+            assert error.error is not None
+            assert abs(one.value - exact) <= error.error <= 0.05 * exact, one
+            assert one.value == pytest.approx(exact, rel=0.01)
+            judged += 1
+    assert judged >= 7
 
 
 def test_the_tension_of_thick_layers_is_inverse_to_their_thickness() -> None:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
 RECOVERY = (
-    "stress at the 2 x 2 Gauss points, extrapolated bilinearly to the nodes and averaged over the "
-    "elements of one material"
+    "stress at the 2 x 2 Gauss points, interpolated to the nodes of one material by cubic "
+    "polynomials; by linear ones, with the mean of both sides, between elements of unlike size"
 )
 NEAR = 5.0  # extent of the files in loaded radii; the mesh extends to hundreds
 SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded radii
@@ -30,9 +30,13 @@ SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded rad
 
 @dataclass(frozen=True, eq=False)
 class OnSection(BodyResponse):
-    """One body below tractions on rings, by finite elements on its section."""
+    """One body below tractions on rings, by finite elements on its section.
+
+    divided  False for elements of twice the size everywhere, also far from the contact
+    """
 
     part: ClassVar[Part] = "elements"
+    divided: bool = True
 
     @one_thread()
     def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:
@@ -56,7 +60,7 @@ class OnSection(BodyResponse):
         )
         # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
         asked = asked.model_copy(update={"contact_radius": None})
-        field = subsurface(self.body, tractions, asked, upper=self.indenter)
+        field = subsurface(self.body, tractions, asked, upper=self.indenter, divided=self.divided)
         radius = tractions.loaded_radius
         section = state.add_bulk_stress(_section_points(field), self.indenter)
         if state.of_strips:  # the displacement below a line contact is not stated
@@ -93,17 +97,18 @@ class OnSection(BodyResponse):
         )
 
     def compared(self) -> Sequence[OnSection]:
-        return [self.on_half_the_elements(every) for every in (1, 2)]
+        return [self.on_larger_elements(every) for every in (1, 2)]
 
-    def on_half_the_elements(self, every: int = 1) -> OnSection:
-        """Return the response with half the elements per radius and fewer traction rings.
+    def on_larger_elements(self, every: int = 1) -> OnSection:
+        """Return the response with elements of twice the size and fewer traction rings.
+
+        A mesh of half the elements per radius would not do: far from the contact, its elements are
+        at most √2 times as large, because their growth is proportional to the root of their size.
 
         every  1 to keep the tractions of all rings, 2 to keep those of every second ring
         """
-        state, asked = self.state, self.state.discretisation
+        state = self.state
         radii = state.axes[state.radial]
-        assert asked is not None
-        half = max(2, asked.elements_per_radius // 2)
         # An additional unloaded ring preserves the last ring if their number is even.
         pad = (len(radii) - 1) % every
         more = [*radii, *[2 * radii[-1] - radii[-2]] * pad]
@@ -115,9 +120,8 @@ class OnSection(BodyResponse):
             state,
             axes={**state.axes, state.radial: np.array(more[::every])},
             tractions=tractions,
-            discretisation=asked.model_copy(update={"elements_per_radius": half}),
         )
-        return replace(self, state=coarse)
+        return replace(self, state=coarse, divided=False)
 
     def drawn_stress(self) -> None:
         """Return None: the mesh would take longer than the run."""
