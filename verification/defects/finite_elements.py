@@ -40,11 +40,11 @@ def _weight_of_element(whole: Any, section: Any, *more: Any) -> Any:
 
 
 @replaces(hat_functions, "hats_on")
-def _resultant_weight(whole: Any, nodes: Any, reach: float = np.inf) -> Any:
+def _resultant_weight(whole: Any, *nodes_and_more: Any) -> Any:
     """Plant a wrong weight in the resultant forces on finite elements: each ring counts with its
     outer radius.
     """
-    right = whole(nodes, reach)
+    right = whole(*nodes_and_more)
     lengths = np.zeros_like(right.radii)
     lengths[:-1] += np.diff(right.radii) / 2
     lengths[1:] += np.diff(right.radii) / 2
