@@ -1,6 +1,7 @@
 """Every command that writes, into places that take nothing: an exit code and one error that says
 why, and nothing half-written."""
 
+import json
 import os
 import resource
 import sys
@@ -24,13 +25,6 @@ normal_force = 100
 cells = [16, 16]
 edge = "off"
 """
-SOLVER = """
-from verification import Answer
-from verification.problems.problem import HERTZ
-
-def solve(problem, level):
-    return Answer(1e-5, {("approach", 1): HERTZ.approach})
-"""
 QUICK = ("--figures", "none", "--no-error")
 COMMANDS = {
     "run": ("run", "scene.toml", *QUICK, "-o"),
@@ -39,7 +33,7 @@ COMMANDS = {
     "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
     "limit": ("limit", "scene.toml", "--set", "body.material.yield_strength=1e9", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
-    "judge": ("judge", "mine.py:solve", "--case", "hertz_point", "--levels", "1", "--page"),
+    "judge": ("judge", "answered", "--page"),
     "export": ("export", "run", "-o"),
 }
 # These look where they write before they compute, and keep what is done where they are cut off.
@@ -55,11 +49,18 @@ LONG = {
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A scene, a run of it, a solver, and a report."""
+    """A scene, a run of it, a challenge that is answered, and a report."""
     folder = tmp_path_factory.mktemp("made")
     (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
     succeeded("run", "scene.toml", *QUICK, "-o", "run", cwd=folder)
-    (folder / "mine.py").write_text(SOLVER, encoding="utf-8")
+    export = ("challenge", "export", "hertz_point", "-o", "answered")
+    succeeded(*export, cwd=folder)
+    answers = folder / "answered" / "answers.json"
+    content = json.loads(answers.read_text(encoding="utf-8"))
+    content["solver"]["name"] = "theirs"
+    content["levels"][0]["h"] = 1e-5
+    content["levels"][0]["numbers"][0]["value"] = 1.0
+    answers.write_text(json.dumps(content), encoding="utf-8")
     report = report_by(case("hertz_point", {"approach": (1.0, 1.0)}, run_record(32, None)))
     (folder / "report.json").write_text(dump_report(report), encoding="utf-8")
     return folder
