@@ -7,7 +7,9 @@ import pytest
 from fem_scenes import elements
 
 from contact_scene import Body, IsotropicMaterial, Layer
+from fem_reference.mesh.section_mesh import section_mesh
 from fem_reference.stress import SectionField, SurfaceTractions, subsurface
+from fem_reference.stress.recovery import recovery_of
 
 A = 1e-3
 P0 = 1e9
@@ -77,3 +79,16 @@ def test_the_indenter_carries_the_shear_reversed() -> None:
     turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]
     upper = subsurface(COATED, turned, elements(8), upper=True)
     np.testing.assert_array_equal(upper.stress(), lower.stress())
+
+
+def test_the_grid_of_gauss_points_has_an_element_everywhere() -> None:
+    """Although coordinates of a mesh line differ by round-off from element to element."""
+    film = Layer(thickness=1.23, material=IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.3))
+    base = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
+    mesh = section_mesh(Body(material=base, layers=[film]), 16).refined()
+    assert len(np.unique(mesh.points[0])) > np.sum(mesh.points[1] == 0.0)
+    recovery = recovery_of(mesh)
+    column, row = (places.ravel() for places in recovery.places)
+    elements = np.zeros((recovery.across.shape[1], recovery.down.shape[1]))
+    np.add.at(elements, (column, row), 1)
+    assert np.all(elements == 1)

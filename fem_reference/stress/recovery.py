@@ -129,7 +129,9 @@ def recovery_of(section: SectionMesh) -> Recovery:
     key = basis.element_dofs.T * count + section.layer[:, None]
     unique, cells = np.unique(key, return_inverse=True)
     node, material = unique // count, unique % count
-    r, z = (np.unique(axis) for axis in section.points)
+    # Mesh lines from one row and one column: coordinates of the others differ by round-off.
+    r, z = section.points
+    r, z = np.sort(r[z == 0.0]), np.sort(z[r == 0.0])
     radii, depths = np.asarray(at.global_coordinates())
     places = np.stack([_nearest(_gauss_points(r), radii), _nearest(_gauss_points(z), depths)])
     down = [_interpolate_piece(z, *piece) for piece in section.outline.pieces]
