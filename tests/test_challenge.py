@@ -297,6 +297,8 @@ REFUSED = [
     (r"\"value\": [\d.e-]+", '"value": true', "key levels[1].numbers[1].value"),
     (r"\"value\": [\d.e-]+", '"value": NaN', "key levels[1].numbers[1].value"),
     (r"\"value\": [\d.e-]+", '"value": null', "nothing is answered"),
+    (r"\"value\": ([\d.e-]+)", r'"value": [\1]', "expected one number"),
+    (r"\"load_step\": 1", '"load_step": true', "key levels[1].numbers[1].load_step"),
     (
         r"\"fields\": \[\]",
         '"fields": [{"quantity": "pressure", "load_step": 1, "x": [0], "y": [0], "value": [1, 2], '

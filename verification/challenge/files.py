@@ -92,6 +92,7 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 # Texts and truth values are no numbers.
 Number = Annotated[float, Described(strict=True)]
+Whole = Annotated[int, Described(strict=True)]
 
 
 class GivenSolver(Description):
@@ -111,7 +112,7 @@ class GivenNumber(Description):
     """Number at the end of a load step, or numbers at the points of the challenge [SI]."""
 
     quantity: str
-    load_step: int
+    load_step: Whole
     value: Number | tuple[Number, ...] | None = None
     u: Number | None = Described(default=None, ge=0)
     """Standard uncertainty of one number."""
@@ -121,7 +122,7 @@ class GivenField(Description):
     """Traction on the lower body at points of the code's own choice [SI]."""
 
     quantity: str
-    load_step: int
+    load_step: Whole
     x: tuple[Number, ...]
     y: tuple[Number, ...]
     value: tuple[Number, ...]
@@ -135,7 +136,7 @@ class GivenLevel(Description):
     """Side of a cell or element at the contact edge [m]."""
 
     label: str = ""
-    unknowns: int | None = Described(default=None, ge=0)
+    unknowns: Whole | None = Described(default=None, ge=0)
     seconds: Number | None = Described(default=None, ge=0)
     gave_up: str | None = None
     """Reason of a level without an answer."""
@@ -151,19 +152,22 @@ class GivenLevel(Description):
             key = one.quantity, one.load_step
             if key in scalars or key in points:
                 raise Refused(f"level {level}: {one.quantity} of step {one.load_step} twice")
+            if one.u is not None and not isinstance(one.value, float):
+                raise Refused(f"level {level}: {one.quantity}: u belongs to one number")
             if isinstance(one.value, tuple):
                 points[key] = one.value
             elif one.value is not None:
                 scalars[key] = one.value if one.u is None else (one.value, one.u)
+        fields: dict[Any, Any] = {}
+        for field in self.fields:
+            key = field.quantity, field.load_step
+            if key in fields:
+                raise Refused(f"level {level}: {key[0]} of step {key[1]} twice")
+            fields[key] = Field(*map(np.array, (field.x, field.y, field.value, field.area)))
         given = Answer(
             self.h,
             scalars,
-            {
-                (one.quantity, one.load_step): Field(
-                    *map(np.array, (one.x, one.y, one.value, one.area))
-                )
-                for one in self.fields
-            },
+            fields,
             {} if self.gave_up is None else {0: self.gave_up},
             self.unknowns,
             self.seconds,

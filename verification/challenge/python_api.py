@@ -594,8 +594,8 @@ def checked(challenge: Challenge, answers: Sequence[Answer]) -> tuple[Answer, ..
 
 
 def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
-    """Raise Refused if an answer has a quantity that no challenge requires, or not one number at
-    each of the places of the challenge.
+    """Raise Refused if an answer has a quantity that no challenge requires, a list in place of one
+    number or the reverse, or not one number at each of the places of the challenge.
 
     A quantity that only another challenge requires is accepted.
     """
@@ -604,6 +604,10 @@ def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
         if key[0] not in _known_quantities() or key[1] not in range(1, steps + 1):
             known = ", ".join(repr(one.key) for one in challenge.asked)
             raise Refused(f"level {answer.label}: {key!r} is not asked; asked: {known}")
+    single, placed = ({one.key for one in asked} for asked in (challenge.values, challenge.points))
+    for key in (*(answer.points.keys() & single), *(answer.scalars.keys() & placed)):
+        expected = "one number" if key in single else "a list with one number for each place"
+        raise Refused(f"level {answer.label}: {key[0]} of step {key[1]}: expected {expected}")
     for asked in challenge.points:
         values = answer.points.get(asked.key)
         if values is not None and values.shape != asked.value.shape:
