@@ -1,7 +1,6 @@
 """Print the numbers that the program declares, without a solve.
 
-    python declared.py LEVEL       in cases, challenges, studies and the closures of their functions
-    python declared.py constants   in modules, and as default values of arguments and fields
+    python declared.py LEVEL   in cases, challenges, studies and the closures of their functions
 
 Each number counts by its logarithm, so that a small number counts as much as a large one.
 """
@@ -11,9 +10,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import partial
-from importlib import import_module
-from pkgutil import walk_packages
-from types import FunctionType, MethodType, ModuleType
+from types import FunctionType, MethodType
 from zlib import crc32
 
 import numpy as np
@@ -26,12 +23,7 @@ from verification.judging.case import Level
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
 
-PACKAGES = (
-    *("contact_solver", "contact_scene", "semi_analytical", "fem_reference", "radial"),
-    *("contact_errors", "contact_results", "slipstick", "verification"),
-)
 ROUND_OFF = 1e-13  # of computed references
-TINY = 1e-30  # less than any constant
 
 
 def parts(value: object) -> Iterator[str | float]:
@@ -68,24 +60,6 @@ def held(value: object) -> list[object]:
     return list(value) if isinstance(value, list | tuple) else []
 
 
-def stated(module: ModuleType) -> Iterator[object]:
-    """Constants of a module, and default values in its functions and classes."""
-    for name, value in vars(module).items():
-        own = getattr(value, "__module__", "") == module.__name__
-        if isinstance(value, type) and own:
-            yield from (defaults(one) for key, one in vars(value).items() if key[:2] != "__")
-            yield [one.default for one in getattr(value, "model_fields", {}).values()]
-        elif name.isupper() or (isinstance(value, FunctionType) and own):
-            yield defaults(value)
-
-
-def defaults(value: object) -> object:
-    """Return the default values of a function, whose closure may be a cache, or else the object."""
-    if isinstance(value, FunctionType):
-        return [value.__defaults__, value.__kwdefaults__]
-    return value
-
-
 def weighted(values: list[object], least: float) -> tuple[int, float]:
     """Number of the numbers among values, and a sum of their logarithms."""
     numbers = np.array([one for one in values if isinstance(one, float)])
@@ -102,20 +76,13 @@ def show(kind: str, name: str, *values: object) -> None:
     print(kind, name, len(words), digest, *weighted(found, ROUND_OFF))
 
 
-if sys.argv[1] == "constants":
-    for package in map(import_module, PACKAGES):
-        for found in walk_packages(package.__path__, f"{package.__name__}."):
-            if not found.name.endswith("__main__"):
-                values = list(parts(list(stated(import_module(found.name)))))
-                print(found.name, *weighted(values, TINY))
-else:
-    level = Level[sys.argv[1]]
-    for case in choose(level):
-        show("runs", case.name, case.runs)
-        show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
-    for name, study in STUDIES.items():
-        show("study", name, study.cases(Settings(level)))
-    if level is Level.QUICK:
-        for name, challenge in challenges().items():
-            show("challenge", name, challenge)
-        show("defects", "", DEFECTS)
+level = Level[sys.argv[1]]
+for case in choose(level):
+    show("runs", case.name, case.runs)
+    show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
+for name, study in STUDIES.items():
+    show("study", name, study.cases(Settings(level)))
+if level is Level.QUICK:
+    for name, challenge in challenges().items():
+        show("challenge", name, challenge)
+    show("defects", "", DEFECTS)
