@@ -5,7 +5,7 @@ revolution. The error is the difference. Otherwise the error follows from two su
 for coarse tractions.
 
 The coarse tractions on cells are means over four cells, in two positions of the coarse grid. With
-finite elements, a mesh of half the elements per radius receives the tractions of all rings, and
+finite elements, a mesh with elements of twice the size receives the tractions of all rings, and
 those of every second ring. Each stress of a region has up to two places where it may be largest:
 inside, and at the surface adjacent to the edge of the contact. The error of the largest stress is
 
@@ -285,7 +285,7 @@ def _reach_of_edge(state: LoadedBodies, near: float) -> float:
     order of the stress [length]; infinite for other contacts."""
     pressure = state.tractions["pressure"]
     across = state.radial if state.on_rings else "x"
-    if not (state.of_strips or pressure.shape[1:] == (1,)):
+    if not state.of_strips and (state.on_rings or pressure.shape[1:] != (1,)):
         return inf
     return float(np.max(np.abs(state.axes[across][pressure.ravel() > 0]))) + near
 

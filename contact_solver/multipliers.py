@@ -75,7 +75,8 @@ def find_multiplier(
             if (trial.defect * step).sum() <= 0.5 * steepest:
                 break
             part *= 0.5
-            if not part * abs(step).max() > SMALLEST_CHANGE * abs(multiplier).max():
+            size = abs(multiplier).max() or abs(step).max()
+            if not part * abs(step).max() > SMALLEST_CHANGE * size:
                 return shifted, multiplier
         multiplier = multiplier + part * step
         shifted = trial

@@ -29,7 +29,8 @@ SETTLED = 0.1
 # Reduction by a linear solve while the zones change: of the residual, or of the merit.
 ROUGH_REDUCTION = 0.05
 # Part of the merit of the iterate, or of 1, above which the error of a linear solve dominates the
-# next iterate.
+# next iterate. A round factor, chosen on stiff films: as the target of the solves it was not
+# enough for one of 29.
 DOMINATES = 0.2
 # Merit below which an iterate with an exact inverse is made admissible, for its residuals.
 NEAR = 1e-6
