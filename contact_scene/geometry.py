@@ -20,7 +20,7 @@ from contact_scene.height_map import (
     leave_out_every_second,
     lowest_point,
 )
-from contact_scene.profile import PlaneProfile, Profile
+from contact_scene.profile import PlaneProfile, Profile, sine_rule
 from contact_scene.reading.array_file import (
     ArrayFile,
     FileKey,
@@ -47,9 +47,7 @@ _ROUND_OFF = 1e-12
 _MAX_UNMEASURED = 1 / 3
 
 
-# Quadrature points of the normal force of a line contact, and relative half distance of the points
-# between which a slope is taken.
-_ANGLES = 64
+# Relative half distance of the points between which a slope is taken.
 _NEAR = 1e-4
 # Half widths between which the contact of a line contact is searched [length], and bisections of
 # their logarithm, to round-off.
@@ -674,10 +672,10 @@ class LineShape(ShapedBody):
     def _force_ratio(self, a: float) -> float:
         """Compute W/E* = a ∫₀^(π/2) sin φ f'(a sin φ) dφ of half-spaces [length]
         (Johnson 1985, section 2.7), for a shape f that is symmetric about x = 0."""
-        points, weights = np.polynomial.legendre.leggauss(_ANGLES)
-        t = a * (sine := np.sin(math.pi / 4 * (1.0 + points)))
+        sine, weights = sine_rule()
+        t = a * sine
         rise = self.initial_gap(t * (1.0 + _NEAR), 0.0) - self.initial_gap(t * (1.0 - _NEAR), 0.0)
-        return float(math.pi / 4 * a * weights @ (sine * rise / (2.0 * _NEAR * t)))
+        return float(a * weights @ (sine * rise / (2.0 * _NEAR * t)))
 
     def _half_width(self, load: Callable[[float], float], value: float) -> float:
         """Find the half width at which an increasing load has a value, by bisection [length]."""

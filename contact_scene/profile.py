@@ -6,7 +6,7 @@ The profile is even: its mirror image beyond the axis continues it, so that it i
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ Values = NDArray[np.float64]
 _ROUND_OFF = 1e-14
 # Bisections of the logarithm of a contact radius, to 1e-9 of the largest one.
 _BISECTIONS = 64
-# Quadrature points over the angle, for estimates of the contact radius.
+# Quadrature points over the angle, for estimates of the contact radius or half width.
 _ANGLES = 64
 # Limits of the contact radius in estimates, over the radius of the last point.
 _SMALLEST = 1e-12
@@ -135,14 +135,20 @@ class Profile:
         integrand  function of the contact radius and of sin φ
         load       approach [length] or normal force [force]
         """
-        points, weights = np.polynomial.legendre.leggauss(_ANGLES)
-        sine, weights = np.sin(np.pi / 4 * (1 + points)), np.pi / 4 * weights
+        sine, weights = sine_rule()
         low, high = (share * float(self.radii[-1]) for share in (_SMALLEST, _LARGEST))
         for _ in range(_BISECTIONS):
             middle = float(np.sqrt(low * high))
             short = weights @ integrand(middle, sine) < load
             low, high = (middle, high) if short else (low, middle)
         return high
+
+
+@lru_cache(maxsize=1)
+def sine_rule() -> tuple[Values, Values]:
+    """Compute sin φ at Gauss points of 0 < φ < π/2, and the weights of the points, each (64,)."""
+    points, weights = np.polynomial.legendre.leggauss(_ANGLES)
+    return np.sin(np.pi / 4 * (1 + points)), np.pi / 4 * weights
 
 
 @dataclass(frozen=True)

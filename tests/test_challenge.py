@@ -21,12 +21,7 @@ from verification import Answer, Field, Solver, judge
 from verification.challenge.cases import challenges
 from verification.challenge.files import read_answers, toml_text
 from verification.challenge.python_api import judged
-from verification.challenge.requested_quantities import (
-    Challenge,
-    Grade,
-    Patch,
-    RoundTable,
-)
+from verification.challenge.requested_quantities import Challenge, Grade, Patch, RoundTable
 from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 from verification.problems.problem import HERTZ

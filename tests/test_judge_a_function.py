@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -11,13 +10,13 @@ from typing import Any
 
 import pytest
 from command import slipstick
-from processes import has_ended
+from processes import begun, ended, has_ended
 
 from contact_results.directory.atomic_file import Refused
 from verification import Answer, SolverFailed
 from verification import judge as judge_function
+from verification.challenge.answer import Key
 from verification.challenge.python_api import Judgement, posed
-from verification.challenge.requested_quantities import Key
 from verification.challenge.saved_judgements import (
     judgement_changes,
     read_judgements,
@@ -316,15 +315,14 @@ def test_function_ends_with_the_command(hostile: Path, number: int, code: int) -
             "    while True:\n"
             "        pass\n"
         )
-    words = [sys.executable, "-m", "slipstick", "judge", f"{hostile}:endless"]
-    command = subprocess.Popen([*words, "--case", "hertz_point"], stderr=subprocess.PIPE, text=True)
+    command = begun(Path(), "judge", f"{hostile}:endless", "--case", "hertz_point")
     until = time.monotonic() + 60
     while not (Path("child").exists() and Path("child").read_text()):
         assert time.monotonic() < until
         assert command.poll() is None
         time.sleep(0.05)
     command.send_signal(number)
-    _, told = command.communicate(timeout=30)
-    assert command.returncode == code
-    assert "Traceback" not in told
+    end = ended(command)
+    assert end.code == code
+    assert "Traceback" not in end.said
     assert has_ended(int(Path("child").read_text()))

@@ -11,8 +11,8 @@ import slipstick
 from contact_scene import RIGID, Body
 from semi_analytical.influence.bodies import influence_coefficients
 from verification import Answer, judge
+from verification.challenge.answer import Key
 from verification.challenge.cases import MOVED
-from verification.challenge.requested_quantities import Key
 from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 

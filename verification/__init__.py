@@ -8,14 +8,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from verification.challenge.answer import Answer, Field, Solver
     from verification.challenge.python_api import judge
-    from verification.challenge.requested_quantities import Answer, Field, Solver
     from verification.challenge.solver_process import CannotDo, SolverFailed
 
 __all__ = ["Answer", "CannotDo", "Field", "Solver", "SolverFailed", "judge"]
 
 _PLACES = {
-    "verification.challenge.requested_quantities": ("Answer", "Field", "Solver"),
+    "verification.challenge.answer": ("Answer", "Field", "Solver"),
     "verification.challenge.python_api": ("judge",),
     "verification.challenge.solver_process": ("CannotDo", "SolverFailed"),
 }

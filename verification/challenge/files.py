@@ -22,16 +22,10 @@ from contact_results.directory.run_directory import files_at_once
 from contact_scene import Scene
 from contact_scene.reading.description import Description
 from contact_scene.stepping.load_path import ControlKind, LoadRamp
+from verification.challenge.answer import Answer, Field, Solver
 from verification.challenge.cases import challenges
 from verification.challenge.python_api import checked
-from verification.challenge.requested_quantities import (
-    Answer,
-    Challenge,
-    Field,
-    Grade,
-    Patch,
-    Solver,
-)
+from verification.challenge.requested_quantities import Challenge, Grade, Patch
 from verification.challenge.solver_process import plain_answer
 from verification.running.study import json_text
 

@@ -20,16 +20,9 @@ from typing import Any
 import numpy as np
 
 from contact_results.directory.atomic_file import Refused
+from verification.challenge.answer import Answer, Field, Solver
 from verification.challenge.cases import challenges
-from verification.challenge.requested_quantities import (
-    Answer,
-    AskedField,
-    AskedValue,
-    Challenge,
-    Field,
-    Grade,
-    Solver,
-)
+from verification.challenge.requested_quantities import AskedField, AskedValue, Challenge, Grade
 from verification.challenge.solver_process import (
     SECONDS_PER_LEVEL,
     Posed,

@@ -24,13 +24,15 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from contact_results.directory.atomic_file import Refused
-from contact_scene.array_types import Vector
-from verification.challenge.requested_quantities import Answer, Field, Key
+from verification.challenge.answer import Answer, Field, Key
+
+if TYPE_CHECKING:
+    from contact_scene.array_types import Vector
 
 
 class CannotDo(Exception):

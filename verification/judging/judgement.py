@@ -368,7 +368,11 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
             "first law: work put in is stored, dissipated or left open by the increment",
             f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
             lambda run: run.energy,
-            {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
+            {
+                label: f", {part.terms}"
+                for label, part in missing.items()
+                if isinstance(part, Imbalance) and part > ROUNDING
+            },
         ),
     )
 
