@@ -105,6 +105,8 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
         stack.enter_context(patch("time.process_time", count().__next__))  # a second of each solve
         stack.enter_context(patch("time.perf_counter", count().__next__))
         stack.enter_context(patch("slipstick.cli.progress.time", _Stopped))
+        # A row of the table of pressing with friction would take half a minute.
+        stack.enter_context(patch("slipstick.tables.frictional.PATH_INCREMENTS", 12))
         for module in ("figure_files", "style"):
             stack.enter_context(patch(f"contact_results.figures.{module}.save", _write_figure))
         pool = "verification.running.case_pool.LocalWorkers"
