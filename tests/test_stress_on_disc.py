@@ -15,8 +15,10 @@ from numpy.testing import assert_allclose
 import radial
 import radial.history
 import slipstick
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import OnDisc
+from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
     Body,
@@ -26,6 +28,7 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
+    SurfaceDiscretisation,
 )
 from contact_scene.geometry import ShapedBody
 from radial.normal.disc import disc
@@ -197,3 +200,32 @@ def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> N
     peak = np.max(np.abs(section.stress))
     assert np.min(section.x) < 0
     assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)
+
+
+@pytest.mark.parametrize(
+    ("solver", "sizes"),
+    [
+        ("radial", None),
+        ("semi-analytical", SurfaceDiscretisation(cells=(12, 12))),
+    ],
+)
+def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
+    solver: str, sizes: SurfaceDiscretisation | None
+) -> None:
+    """Largest at half the depth from the axis, far beyond the points next to the contact."""
+    steel = IsotropicMaterial(young_modulus=2e11, poisson_ratio=0.3)
+    depth, force = 2e-3, 10.0  # of contacts with radii of 0.05 mm
+    body = Body(material=steel, layers=(Layer(thickness=depth, material=steel),))
+    scene = Scene(
+        indenter=Paraboloid(radius=3e-3, material=RIGID),
+        body=body,
+        loading=(LoadStep(normal_force=force),),
+    )
+    state = state_of_result(slipstick.solve(scene, solver, sizes), 1).with_bodies_of(scene)
+    found = {(e.region, e.measure): e for e in extremes(body_response(state).stress())}
+    shear = found["interface 1 above", "interface_shear"]
+    # Boussinesq: 3 W / 2π · r z² / (r² + z²)^(5/2), at r = z / 2 (Johnson 1985, eq. 3.19).
+    expected = 3 * force / (2 * np.pi * depth**2) * 0.5 / 1.25**2.5
+    assert not shear.at_window_edge
+    assert_allclose(shear.value, expected, rtol=5e-3)
+    assert_allclose(np.hypot(shear.x, shear.y), depth / 2, rtol=0.05)

@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 # the edge of the first window. Behind a contact with tangential load the largest interface stress
 # is about two radii from the centre.
 WIDE_MARGIN = 2.4
+# Cells along a side up to which a wider window has more cells, not wider ones. With 32 cells a peak
+# that varies over its distance r from the axis lies within r / 16 of the centre of a cell.
+FEW_CELLS = 32
 # Distance between adjacent places beyond the window of a line contact, relative to their distance
 # from the origin. It resolves the stress, which varies over this distance; around its largest
 # values, places are added as dense as the outermost strips.
@@ -105,6 +108,42 @@ class CellWindow:
         if shear is not None:
             shear = np.pad(-shear if indenter else shear, [(0, 0), *pad])
         return cls(state, indenter, grid, np.pad(pressure, pad), shear)
+
+    def widened(self) -> CellWindow:
+        """Extend the window to three times its width.
+
+        In a window of many cells, 3 × 3 cells are combined into one with their force: far from the
+        contact the stress is the same.
+        """
+        from semi_analytical import SurfaceGrid
+
+        nx, ny = self.grid.cells
+        joined = 3 if max(nx, ny) > FEW_CELLS else 1
+        cells = (3 * nx // joined, 3 * ny // joined)
+
+        def combined(tractions: Field) -> Field:
+            pad = [(0, 0)] * (tractions.ndim - 2) + [(nx, nx), (ny, ny)]
+            blocks = (*tractions.shape[:-2], cells[0], joined, cells[1], joined)
+            return np.asarray(np.pad(tractions, pad).reshape(blocks).mean(axis=(-3, -1)))
+
+        side_x, side_y = self.grid.window
+        grid = SurfaceGrid(cells, (3 * side_x, 3 * side_y))
+        shear = None if self.shear is None else combined(self.shear)
+        return replace(self, grid=grid, pressure=combined(self.pressure), shear=shear)
+
+    def largest_outside(self, levels: Sequence[Level], half: Sequence[float]) -> StressPoints:
+        """Find the points with the largest stresses on each depth outside a rectangle.
+
+        levels  depths, each with its layer
+        half    half widths of the rectangle along x and y [length]
+        """
+        columns, rows = self.computed_cells(section_only=False)
+        found = []
+        for field in self.stress_by_level(tuple(levels), None, rows):
+            points = _stress_points(field, self.grid, columns)
+            outside = (np.abs(points.x) > half[0]) | (np.abs(points.y) > half[1])
+            found.append(points.select(outside).select_largest())
+        return StressPoints.concatenate(found)
 
     @property
     def body(self) -> Body:
@@ -269,7 +308,8 @@ class OnCells(BodyResponse):
         from the edge. The contact edge is then fitted between the cells, and the result has
         additional points on the fitted edge. `how` of the result states the cause if no edge was
         fitted. If a maximum under tangential load lies at the edge of the window, its depth is
-        computed again below a wider window. Below a line contact, the largest values are searched
+        computed again below a wider window; if a maximum still lies at the edge, below windows of
+        wider cells. Below a line contact, the largest values are searched
         beyond the window as well, see `CellWindow.points_beyond`. Both sides of every interface are
         always included.
         """
@@ -284,16 +324,42 @@ class OnCells(BodyResponse):
         )
         if len(self.state.axes["y"]) == 1:
             return field
-        if self.section_only or not np.any(self.state.tractions.get("shear", 0.0)):
+        if self.section_only:
             return field
-        far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
-        if not far:
-            return field
-        with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
-            beyond = below(far, WIDE_MARGIN, see_edge=False)
-            wide = below(depths, WIDE_MARGIN, see_edge=self.see_edge, section_only=True)
-            points = StressPoints.concatenate([beyond.points, field.points])
-            return replace(wide, points=points, edge=field.edge, volume=field.volume)
+        margin, far = MARGIN, _depths_at_edge(field)
+        if far and np.any(self.state.tractions.get("shear", 0.0)):
+            with suppress(ResourceRefused):
+                beyond = below(far, WIDE_MARGIN, see_edge=False)
+                wide = below(depths, WIDE_MARGIN, see_edge=self.see_edge, section_only=True)
+                points = StressPoints.concatenate([beyond.points, field.points])
+                field = replace(wide, points=points, edge=field.edge, volume=field.volume)
+                margin = WIDE_MARGIN
+        return self._beyond_window(field, margin)
+
+    def _beyond_window(self, field: StressField, margin: float) -> StressField:
+        """Add points beyond the window at depths whose largest stress lies at its edge.
+
+        The shear at the interface of a thick layer is largest at a distance of about its thickness.
+        The window grows until the largest stresses lie within it, see `CellWindow.widened`.
+
+        margin  smallest half width of the window in half extents of the contact
+        """
+        from semi_analytical.frf.stack import stack_of
+        from semi_analytical.stress.strips import spread
+
+        window = CellWindow.around_contact(self.state, self.indenter, margin)
+        contact = max(window.grid.window) / 2
+        while far := _depths_at_edge(field):
+            half = [side / 2 for side in window.grid.window]
+            if max(half) > spread(stack_of(window.body), contact, max(far)):
+                break
+            window = window.widened()
+            levels = [s for s in _stress_levels(window.body, far, contact) if s.depth in far]
+            beyond = window.largest_outside(levels, half)
+            followed = field.points.at_edge & np.isin(field.points.depth, far)
+            inner = replace(field.points, at_edge=field.points.at_edge & ~followed)
+            points = StressPoints.concatenate([inner.flattened, beyond])
+            field = replace(field, points=points)
         return field
 
     @one_thread()
@@ -396,6 +462,11 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
         }
         state = replace(state, axes=axes, tractions=tractions)
     return state
+
+
+def _depths_at_edge(field: StressField) -> list[float]:
+    """Return the depths of positive largest stresses at the edge of the window, downward."""
+    return sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
 
 
 def _stress_in_window(

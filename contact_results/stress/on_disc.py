@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
@@ -11,7 +11,7 @@ import numpy as np
 from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.points import MEASURES, StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody, is_sheared
-from contact_results.stress.stress_maxima import extremes
+from contact_results.stress.stress_maxima import Extreme, extremes
 from contact_scene.array_types import Field
 from contact_scene.machine import one_thread
 from contact_scene.quantities.stated_error import Part
@@ -19,6 +19,10 @@ from contact_scene.quantities.stated_error import Part
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
+# Factor of the reach of the points beside a contact whose largest stresses lie at their outer end,
+# and the reach, in contact radii, at which the search ends.
+WIDER = 3.0
+FARTHEST = 1000.0
 SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
@@ -73,6 +77,7 @@ class OnDisc(BodyResponse):
             },
             body.direction,
         )
+        field, body = self._beyond_section(field, body)
         if depths is not None:
             return field
         nearer = [
@@ -81,6 +86,41 @@ class OnDisc(BodyResponse):
             if one.region in body.parts.named and one.measure in self.measures
         ]
         return replace(field, points=StressPoints.concatenate([field.points, *nearer]))
+
+    def _beyond_section(
+        self, field: StressField, body: RadialBody
+    ) -> tuple[StressField, RadialBody]:
+        """Add points beyond the section at depths whose largest stress lies at its outer end.
+
+        The shear at the interface of a thick layer is largest at a distance of about its thickness.
+        The reach grows until the largest stresses lie within it.
+
+        Returns the field, and the body with this reach.
+        """
+        from semi_analytical.frf.depth import Level
+
+        while body.reach < FARTHEST:
+            points, ends = field.points, body.reach * body.parts.radius
+            distance = np.hypot(points.x - body.centre, points.y)
+            outer = points.at_edge & (distance >= (1 - 1e-9) * ends)
+            outer &= points.depth != body.parts.deepest
+            far = {
+                (float(points.depth[k]), int(points.material[k]))
+                for k in map(_place(points), extremes(field))
+                if outer[k]
+            }
+            if not far:
+                break
+            body = RadialBody.from_state(
+                self.state, self.indenter, self.fineness, WIDER * body.reach
+            )
+            levels = [Level(*level) for level in sorted(far)]
+            x = body.section[np.abs(body.section - body.centre) > ends]
+            beyond = body.stress_points(levels, x, np.zeros_like(x)).flattened
+            followed = outer & np.isin(points.depth, [depth for depth, _ in far])
+            inner = replace(points, at_edge=points.at_edge & ~followed)
+            field = replace(field, points=StressPoints.concatenate([inner, beyond]))
+        return field, body
 
     @one_thread()
     def stress_at(self, x: Field, y: Field, levels: Sequence[Level]) -> StressPoints:
@@ -102,6 +142,14 @@ class OnDisc(BodyResponse):
 
     def drawn_stress(self) -> StressField | None:
         return None if is_sheared(self.state) else self.stress()
+
+
+def _place(points: StressPoints) -> Callable[[Extreme], int]:
+    """Return the function that finds the index of a largest stress among the points."""
+    measures = points.measures
+    return lambda one: int(
+        np.argmax((points.depth == one.depth) & (measures[one.measure] == one.value))
+    )
 
 
 def _both_sides(right: StressPoints) -> StressPoints:

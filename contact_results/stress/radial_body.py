@@ -64,6 +64,7 @@ class RadialBody:
     direction  unit vector of the load in the axes of the scene
     centre     coordinate x of the contact centre [length]
     is_round   True if the fields depend on the radius alone and are computed at x >= 0, y = 0
+    reach      extent of the points to the sides, in contact radii
     """
 
     fields: Fields
@@ -73,15 +74,19 @@ class RadialBody:
     direction: tuple[float, float]
     centre: float = 0.0
     is_round: bool = True
+    reach: float = REACH
 
     @classmethod
-    def from_state(cls, state: LoadedBodies, indenter: bool, fineness: int = 1) -> RadialBody:
+    def from_state(
+        cls, state: LoadedBodies, indenter: bool, fineness: int = 1, reach: float = REACH
+    ) -> RadialBody:
         """Prepare the computation of the stress in the lower body or in the indenter.
 
         state     bodies and tractions that cause the stress
         indenter  True for the indenter, False for the lower body
         fineness  multiple of the numbers of polynomials and quadrature points; above 1, tractions
                   that depend on the angle have another fit near the contact edge
+        reach     extent of the points to the sides, in contact radii
 
         Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a
         tangential load that changes direction.
@@ -90,17 +95,24 @@ class RadialBody:
 
         body = state.loaded_body(indenter)
         make = cls._below_shear if is_sheared(state) else cls._below_pressure
-        return make(state, indenter, fineness, body, stack_of(body))
+        return make(state, indenter, fineness, reach, body, stack_of(body))
 
     @classmethod
     def _below_pressure(
-        cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
+        cls,
+        state: LoadedBodies,
+        indenter: bool,
+        fineness: int,
+        reach: float,
+        body: Body,
+        stack: Stack,
     ) -> RadialBody:
         """Prepare the stress of a contact without shear, from indenter shape and contact radius.
 
         state     bodies and tractions that cause the stress
         indenter  True for the indenter, False for the lower body
         fineness  multiple of the numbers of polynomials and quadrature points
+        reach     extent of the points to the sides, in contact radii
         body      the body in which the stress is computed
         stack     the elastic layers and the base of this body
         """
@@ -117,7 +129,7 @@ class RadialBody:
         contact = disc(Bodies.of(scene), shape, a, asked, fineness)
         infinite = contact.profile.apex or contact.edge != 0
         parts = BodyRegions.from_body(body, a, PRESSED.down, infinite=infinite)
-        below = SubsurfaceDisc(contact, stack, REACH, fineness)
+        below = SubsurfaceDisc(contact, stack, reach, fineness)
 
         def fields(levels: Sequence[Level], x: Field, _y: Field) -> Field:
             u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.compute_fields(levels, x), 1, 0)
@@ -125,11 +137,17 @@ class RadialBody:
             return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)
 
         strained = partial(state.add_bulk_stress, indenter=indenter)
-        return cls(fields, parts, PRESSED, strained, state.direction)
+        return cls(fields, parts, PRESSED, strained, state.direction, reach=reach)
 
     @classmethod
     def _below_shear(
-        cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
+        cls,
+        state: LoadedBodies,
+        indenter: bool,
+        fineness: int,
+        reach: float,
+        body: Body,
+        stack: Stack,
     ) -> RadialBody:
         """Prepare the stress of a contact with shear, from the tractions on rings.
 
@@ -137,6 +155,7 @@ class RadialBody:
         indenter  True for the indenter, False for the lower body
         fineness  multiple of the numbers of polynomials and quadrature points; above 1, tractions
                   that depend on the angle have another fit near the contact edge
+        reach     extent of the points to the sides, in contact radii
         body      the body in which the stress is computed
         stack     the elastic layers and the base of this body
         """
@@ -168,7 +187,7 @@ class RadialBody:
         if indenter:
             circle = circle.tractions_on_upper_body()
         parts = BodyRegions.from_body(body, circle.radius, SHEARED.down)
-        below = SubsurfaceCircle(circle, stack, REACH, highest, fineness)
+        below = SubsurfaceCircle(circle, stack, reach, highest, fineness)
         strained = partial(state.add_bulk_stress, indenter=indenter)
         return cls(
             below.compute_fields,
@@ -178,6 +197,7 @@ class RadialBody:
             state.direction,
             circle.centre,
             circle.is_round,
+            reach,
         )
 
     @property
@@ -188,7 +208,7 @@ class RadialBody:
         """
         inside = np.sin(0.5 * np.pi * np.arange(self.sampling.inside) / self.sampling.inside)
         beside = np.arange(self.sampling.beside + 1) / self.sampling.beside
-        return self.parts.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2])
+        return self.parts.radius * np.concatenate([inside, 1 + (self.reach - 1) * beside**2])
 
     @property
     def section(self) -> Field:
@@ -213,7 +233,7 @@ class RadialBody:
         depth = np.array([[level.depth] for level in levels])
         layer = np.array([[level.layer] for level in levels])
         none, parts = np.zeros_like(found[0]), self.parts
-        away = np.hypot(x - self.centre, y) >= (1 - 1e-9) * REACH * parts.radius
+        away = np.hypot(x - self.centre, y) >= (1 - 1e-9) * self.reach * parts.radius
         infinite = (depth == parts.first) & (parts.first > 0)
         points = StressPoints(
             none + x,
@@ -266,7 +286,7 @@ class RadialBody:
         around = np.pi / (ANGLES + 1) if abs(y) > 1e-9 * radius else 0.0
         steps = np.arange(-about, about + 1) / about
         for _ in range(self.sampling.rounds + 1):
-            radii = np.clip(r + across * steps, 0, REACH * radius)
+            radii = np.clip(r + across * steps, 0, self.reach * radius)
             if radii[0] < radius < radii[-1]:  # a peak may lie at the contact edge
                 radii = np.append(radii, radius)
             depths = np.unique(np.clip(z + down * steps, top, bottom))
