@@ -260,7 +260,8 @@ class _Increment:
         history, both as means weighted with the shear. The third is the first times the ratio of
         the tangential displacements by pressure and by shear: the overlap changes the pressure in
         this proportion, and an update of its multiplier slips coupled bodies without a load. The
-        third applies at nodes only: at Gauss points every increment starts without a multiplier.
+        third applies at nodes only, and with updates: at Gauss points every increment starts
+        without a multiplier, and without updates there is no such slip.
 
         At Gauss points the error is multiplied by (WIDEST_ZONE × a/b)², at most 1. Here a is the
         contact radius and b the outer radius of the mesh's contact zone. The discretisation error
@@ -276,7 +277,8 @@ class _Increment:
         strain = over(self.shear_weighted_mean(one, one.strain[:2]), moved)
         if not self.contact.at_gauss_points:
             slip = over(self.shear_weighted_mean(one, by_pressure), moved)
-            return max(share, strain, share * slip)
+            updated = self.contact.penalty is not None and self.contact.penalty.augmentations > 0
+            return max(share, strain, share * slip if updated else 0.0)
         rings = self.contact.rings
         touching = np.flatnonzero(one.solution.pressure > 0)
         reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
