@@ -10,7 +10,6 @@ from scipy.integrate import quad
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.huber_stress import (
     hamilton_stress,
-    sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
     trailing_edge_tension,
@@ -23,10 +22,7 @@ from verification.closed_forms.torsion import (
 )
 
 
-def test_hamiltons_stress_is_that_of_sliding_on_the_axis_and_at_the_surface() -> None:
-    depth = np.array([0.01, 0.3, 1.0])
-    on_axis = hamilton_stress(1e-9, 0.0, depth, 1.0, 0.0, 1.0, 0.3)[4]
-    np.testing.assert_allclose(on_axis, sliding_axis_shear(depth, 1.0, 1.0), atol=1e-9)
+def test_hamiltons_stress_is_that_of_sliding_at_the_surface() -> None:
     x = np.array([-0.5, 0.5, 1.3])
     near = hamilton_stress(x, 0.0, 1e-6, 1.0, 0.0, 1.0, 0.3)[0]
     np.testing.assert_allclose(near, stress_by_hertz_shear(x, 1.0, 1.0, 0.3), atol=1e-5)
