@@ -51,7 +51,6 @@ CASES = (
     "exchanged_bodies",
     "led_histories",
     "coated_paraboloid",
-    "coated_unlike_ratios",
     "compliant_bond",
     "layered_identities",
     "torsion_coated",
@@ -106,7 +105,6 @@ MODULES = {
     "coatings": (
         *(
             "coated_paraboloid",
-            "coated_unlike_ratios",
             "compliant_bond",
             "layered_identities",
             "thin_layer",

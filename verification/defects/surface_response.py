@@ -227,7 +227,7 @@ SURFACE_RESPONSE = (
     Defect(
         "substrate-ratio-in-layer",
         "Layers of a scene get the substrate's Poisson's ratio.",
-        ("coated_unlike_ratios",),
+        ("compliant_bond",),
         _substrate_ratio_in_layer,
     ),
     Defect(
