@@ -58,7 +58,6 @@ CASES = (
     "frictional_indentation",
     "sheared_increments",
     "no_slip_indentation",
-    "spence_example",
     "subsurface_stress",
     "radial_pressing",
     "radial_indentation",
@@ -113,7 +112,7 @@ MODULES = {
     ),
     "frictional_pressing": (
         *("frictional_indentation", "sheared_increments"),
-        *("no_slip_indentation", "spence_example", "fem_indentation", "fem_increments"),
+        *("no_slip_indentation", "fem_indentation", "fem_increments"),
         "radial_indentation",
     ),
     "histories": (
