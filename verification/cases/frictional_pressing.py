@@ -100,7 +100,7 @@ from verification.problems.problem import (
     rigid_ball,
     square_grid,
 )
-from verification.quantities import shear_of, shift_along_x
+from verification.quantities import relative_difference, shear_of
 
 # Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
 SMALLEST = -340.0
@@ -356,18 +356,8 @@ class Refined:
         return draw
 
 
-def _approach_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative change of the approach from a coarse to a fine run at the end of the
-    history.
-    """
-    return abs(approach(coarse) / approach(fine) - 1)
-
-
-def _shift_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative change of the tangential shift from a coarse to a fine run, at the last
-    step.
-    """
-    return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
+APPROACH_CHANGE = partial(relative_difference, "approach", -1)
+SHIFT_CHANGE = partial(relative_difference, "tangential_shift", -1)
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
@@ -468,9 +458,9 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         runs,
         "1 / increments of a step",
         (
-            change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
+            change(Followed.SHIFT, "tangential shift", SHIFT_CHANGE, 1.0, backward, name="shift"),
             change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
-            change(Followed.APPROACH, "approach", _approach_change, 1.0, backward),
+            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 1.0, backward),
         ),
         apart=1,
         left_out={Followed.APPROACH: 1},
@@ -490,7 +480,7 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
                 "shift",
                 f"change of the shift from {counts[-2]} to {counts[-1]} increments",
                 (runs[-2].label, runs[-1].label),
-                _shift_change,
+                SHIFT_CHANGE,
                 2e-2 * 4 / counts[-2],
                 "2 % from 4 to 8 increments, and half of that with each further doubling: first "
                 "order",
@@ -775,11 +765,11 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
         ),
         "1 / increments",
         (
-            change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
+            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 2.0, KEPT_SLIP),
             change(
                 Followed.CONTACT_RADIUS,
                 "contact radius",
-                lambda coarse, fine: abs(contact_radius(coarse) / contact_radius(fine) - 1),
+                partial(relative_difference, "contact_radius", -1),
                 2.0,
                 KEPT_SLIP,
             ),

@@ -79,7 +79,7 @@ from verification.problems.problem import (
     square_grid,
     tangential_step,
 )
-from verification.quantities import shear_of, shift_along_x
+from verification.quantities import relative_difference, shear_of
 
 Difference = Callable[[Any, Any], float]
 
@@ -395,15 +395,12 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
     section = bare.section(elements, harmonics)
     led = bare.led_run(cells), filmed.led_run(cells)
     carried = "residuals of two solves, amplified in the tractions and carried through the history"
-    read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
-        "shift": ("shift", 5e-3, shift_along_x),
-        "energy": ("dissipated energy", 1.5e-2, lambda end: float(end.dissipated_energy)),
-        "approach": ("approach", 1e-3, lambda end: float(end.approach)),
+    # Allowed difference and scalar, by name of the verdict.
+    read = {
+        "shift": (5e-3, "tangential_shift"),
+        "energy": (1.5e-2, "dissipated_energy"),
+        "approach": (1e-3, "approach"),
     }
-
-    def apart(step: int, number: Callable[[Any], float], one: Any, other: Any) -> float:
-        return abs(number(one.steps[step - 1]) / number(other.steps[step - 1]) - 1)
-
     return case(
         "coupled_history",
         "Tangential loop, turn and unloading with coupling",
@@ -435,10 +432,10 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
             *(
                 compare_runs(
                     f"{name}_{'pushed' if step == PUSHED else 'back'}",
-                    f"difference of the {words} after the "
+                    f"difference of the {scalar.replace('_', ' ')} after the "
                     f"{'push' if step == PUSHED else 'reversal'}, relative",
                     (section.label, runs[0].label),
-                    partial(apart, step, number),
+                    partial(relative_difference, scalar, step - 1),
                     allowed * 32 / cells,
                     "set by hand: about three times the error of both on the quick "
                     "discretisations, proportional to the cell side on others; a loop without "
@@ -447,7 +444,7 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
                     ReferenceKind.OTHER_SOLVER,
                 )
                 for step in (PUSHED, BACK)
-                for name, (words, allowed, number) in read.items()
+                for name, (allowed, scalar) in read.items()
             ),
         ),
         limits=("All solves take equal increments, so that the increment error is not visible.",),
@@ -473,15 +470,11 @@ def _patchy_friction(grid: SurfaceGrid) -> Field:
 
 
 def scalars_apart(one: Any, other: Any) -> float:
-    """Compute the largest relative difference of approach, shift and dissipated energy [1].
-
-    Two results are compared at the end of the last load step; the shift is that along x.
+    """Compute the largest relative difference of approach, shift and dissipated energy at the end
+    of two results [1].
     """
-    (a, b) = (
-        (end.approach, float(end.tangential_shift[0]), end.dissipated_energy)
-        for end in (one.steps[-1], other.steps[-1])
-    )
-    return worst(*(abs(x / y - 1) for x, y in zip(a, b, strict=True)))
+    names = ("approach", "tangential_shift", "dissipated_energy")
+    return worst(*(relative_difference(name, -1, one, other) for name in names))
 
 
 def same_surface(level: Level = Level.QUICK) -> Case:
@@ -1036,15 +1029,11 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         for box in (near, far)
     }
     # The error is this power of radius over box, if the boundary moves by the exact resultant.
-    numbers: dict[str, tuple[str, int, Callable[[Any], float]]] = {
-        "approach": ("pushed", 3, lambda end: float(end.approach)),
-        "shift": ("pushed", 3, shift_along_x),
-        "twist": ("twisted", 5, lambda end: float(end.twist)),
+    powers = {
+        "approach": ("pushed", 3),
+        "tangential_shift": ("pushed", 3),
+        "twist": ("twisted", 5),
     }
-
-    def apart(number: Callable[[Any], float], one: Any, other: Any) -> float:
-        return abs(number(one.steps[-1]) / number(other.steps[-1]) - 1)
-
     return case(
         "fem_far_field",
         "Finite elements: the half-space beyond the box",
@@ -1055,10 +1044,10 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         runs=tuple(runs.values()),
         quantities=tuple(
             compare_runs(
-                name,
-                f"{name} of the punch, {way}: relative difference",
+                name.removeprefix("tangential_"),
+                f"{name.replace('_', ' ')} of the punch, {way}: relative difference",
                 (runs[way, near].label, runs[way, far].label),
-                partial(apart, number),
+                partial(relative_difference, name, -1),
                 near**-power,
                 f"the resultant is known on the box; the next term falls with the power {power} "
                 "of the radius over the box",
@@ -1066,7 +1055,7 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
                 ReferenceKind.OWN_REFINEMENT,
                 far**-power,
             )
-            for name, (way, power, number) in numbers.items()
+            for name, (way, power) in powers.items()
         ),
         equations=(r"\mathbf{u} = \mathbf{u}_\mathrm{Boussinesq-Cerruti}(W, T, M) + O(a^n/R^n)",),
         no_order="the allowed difference is itself the power law of the box",

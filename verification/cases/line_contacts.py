@@ -72,6 +72,7 @@ from verification.problems.problem import (
     Problem,
     ReferenceKind,
 )
+from verification.quantities import relative_difference
 
 TARGET = f"accuracy target of line contacts at {STRIPS} strips, the default"
 DISTANCE = 20e-3  # at which the surface does not move
@@ -473,13 +474,6 @@ COATED_LINES = {
 }
 
 
-def _apart(name: str, step: int, one: Any, other: Any) -> float:
-    """Return the relative difference of a number of two results at the end of a load step."""
-    ends = one.steps[step], other.steps[step]
-    found, expected = (np.linalg.norm(getattr(end, name)) for end in ends)
-    return float(abs(found / expected - 1))
-
-
 def line_on_elements(level: Level = Level.QUICK) -> Case:
     """Create the verification case of line contacts on plane-strain elements.
 
@@ -526,7 +520,7 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
                     f"{name}_of_{pair.replace(' ', '_')}",
                     f"difference of elements from strips: {name.replace('_', ' ')}, relative",
                     (one.run.label, other.judged.run.label),
-                    partial(_apart, name, step),
+                    partial(relative_difference, name, step),
                     own[name](one) + more,
                     "sum of the tolerances of both solvers for half-spaces",
                     "strips, which share only the scene",
