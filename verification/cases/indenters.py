@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from math import pi, sqrt
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -46,8 +46,8 @@ from verification.judging.declared_case import (
     PRESSURE_WITHIN,
     STAIRCASE,
     Falls,
-    Observable,
     Refined,
+    RefinementLevels,
     SizedRun,
     Within,
     because,
@@ -55,6 +55,7 @@ from verification.judging.declared_case import (
     error_norm,
     finest,
     judged,
+    ladder,
     levels,
     meshed,
     named,
@@ -728,19 +729,6 @@ ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
-def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
-    """Return one component of a vector quantity at the end of the last load step.
-
-    The result is NaN if the increment does not have the quantity.
-
-    name    name of the quantity, such as "tilt"
-    axis    index of the component
-    result  result of a solver
-    """
-    vector = getattr(result.steps[-1], name)
-    return float("nan") if vector is None else float(vector[axis])
-
-
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest relative pressure error of a flat punch within half its radius [1].
 
@@ -770,8 +758,17 @@ def _stiffness_difference(one: Any, other: Any) -> float:
     return float(np.max(np.abs(of(one) / of(other) - 1)))
 
 
-def _exact_slope(axis: int, exact: Any) -> float:
-    return float(exact.tilt[axis])
+# The slope along an axis is a rotation about the other one.
+SLOPES = tuple(
+    replace(
+        number(f"tilt_{axis}", f"slope along {axis}", quantity=f"tilt_{other}"),
+        value=lambda exact, along=along: float(exact.tilt[along]),
+    )
+    for along, (axis, other) in enumerate(("xy", "yx"))
+)
+MOMENT_OF_TILT = number(
+    "moment_of_given_tilt", "moment M_y at the prescribed tilt", quantity="moment_y", exact="moment"
+)
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
@@ -808,20 +805,12 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     rows = (
         *(
             Within(
-                # The slope along an axis is a rotation about the other one.
-                Observable(
-                    f"tilt_{axis}",
-                    f"slope along {axis}",
-                    "rad",
-                    partial(_vector_component, "tilt", 1 - along),
-                    partial(_exact_slope, along),
-                    scalar=("tilt", 1 - along),
-                ),
+                slope,
                 part_of_side(1.5),
                 "one and a half cells over the radius, because the tilt depends on its third "
                 f"power: {STAIRCASE}",
             )
-            for along, axis in enumerate("xy")
+            for slope in SLOPES
         ),
         Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
         Within(
@@ -920,21 +909,12 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         )
     )
 
-    def rolled(
-        name: str, meaning: str, unit: str, run: str, scalar: tuple[str, int], value: float
-    ) -> Quantity:
-        reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
-        return Quantity(
-            name,
-            meaning,
-            unit,
-            run,
-            partial(_vector_component, *scalar),
-            reference,
-            Required(1e-6, ROLLED),
-            scalar=(*scalar, -1),
-        )
+    def known(run: Run, **exact: Any) -> RefinementLevels:
+        ends = (SimpleNamespace(**exact),)
+        problem = Problem(run.scene, ends, HERTZ.contact_radius, source, ReferenceKind.IDENTITY)
+        return ladder(problem, [SizedRun(run, cells)])
 
+    _, beside, given, *_ = runs
     return case(
         "eccentric_ball",
         "Ball with an eccentric force",
@@ -942,27 +922,10 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         "rolls until the contact is below the force. The contact then equals the centred "
         "contact, shifted by whole cells, so that the fields agree to the tolerance of the "
         "solver, also for coupled pressure and shear.",
+        judged(known(beside, tilt=roll), [Within(slope, 1e-6, ROLLED) for slope in SLOPES]),
+        judged(known(given, moment=NORMAL_FORCE * e[0]), [Within(MOMENT_OF_TILT, 1e-6, ROLLED)]),
         runs=runs,
         quantities=(
-            *(
-                rolled(
-                    f"tilt_{axis}",
-                    f"slope along {axis}",
-                    "rad",
-                    "beside",
-                    ("tilt", 1 - along),
-                    roll[along],
-                )
-                for along, axis in enumerate("xy")
-            ),
-            rolled(
-                "moment_of_given_tilt",
-                "moment M_y at the prescribed tilt",
-                "N m",
-                "given tilt",
-                ("moment", 1),
-                NORMAL_FORCE * e[0],
-            ),
             *(
                 compare_runs(
                     f"fields{suffix}",
