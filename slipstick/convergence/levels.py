@@ -281,10 +281,7 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
 
 
 def _key_scalars(values: Values, *, line: bool) -> Iterator[tuple[str, str, float]]:
-    """Yield the main scalar results of a load step as (name, quantity, value).
-
-    A component of a vector has the name of its quantity with _x or _y.
-    """
+    """Yield the main scalar results of a load step as (name, quantity, value)."""
     for stem, numbers in values.items():
         if stem in KEYS:
             names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)

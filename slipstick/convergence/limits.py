@@ -236,7 +236,7 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
 
 
 def _scatter(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
-    """Compute the error of the finest level if the errors are C h^p with another C on each level."""
+    """Compute the error of the finest level if each level has another C in the error C h^p."""
     # A common power of some levels is a coincidence then. The largest spread counts, because the
     # errors of half widths have one sign: their mean square is more than that of their differences.
     return SPREADS * max(
@@ -248,10 +248,8 @@ def _scatter(sizes: Sequence[float], values: Sequence[float], order: float) -> f
 def _reach_of_order(
     sizes: Sequence[float], values: Sequence[float], observed: ObservedOrder
 ) -> float:
-    """Compute the largest change of a limit by a convergence order within its 95 % interval.
-
-    An error that the study does not refine changes the observed order, and with it the limit.
-    """
+    """Compute the largest change of a limit by a convergence order within its 95 % interval."""
+    # An error that the study does not refine changes the observed order, and with it the limit.
     low, limit, high = (
         refined_value(sizes, values, max(LEAST_ORDER, observed.order + way)).limit
         for way in (-observed.half_width, 0.0, observed.half_width)
