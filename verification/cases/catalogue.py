@@ -76,8 +76,6 @@ CASES = (
     "fem_far_field",
     "cross_check",
     "external_codes",
-    "fem_penalty_hertz",
-    "fem_penalty_slip",
     "layered_reference",
     "frf_laws",
     "worked_examples",
@@ -87,13 +85,13 @@ CASES = (
 MODULES = {
     "indenters": (
         *("hertz_point", "hertz_exact_sphere", "hertz_approach_control", "hertz_unloading"),
-        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz", "fem_penalty_hertz"),
+        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz"),
         *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
     ),
     "worked_examples": ("worked_examples", "written_files"),
     "partial_slip": ("cattaneo_mindlin", "near_sliding"),
     "fretting": (
-        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
+        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip"),
         *("radial_tangential", "growing_loads"),
     ),
     "line_contacts": (

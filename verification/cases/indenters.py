@@ -46,6 +46,7 @@ from verification.judging.declared_case import (
     PRESSURE_WITHIN,
     STAIRCASE,
     Falls,
+    Judged,
     Refined,
     RefinementLevels,
     SizedRun,
@@ -525,62 +526,12 @@ ON_MESHES = (
 )
 
 
-def fem_hertz(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz contact of a ball by finite elements on many
-    meshes.
+def _penalty_parts(elements: int) -> tuple[Judged, Judged, Quantity]:
+    """Return the judged runs of the Hertz contact with a penalty, and the law of its error.
 
-    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
-    orders of convergence are judged.
+    The penalty allows the surfaces to overlap. One augmentation removes the overlap.
     """
-    meshes = with_edge_at(BALL, levels(level), order_levels(level))
-    return case(
-        "fem_hertz",
-        "Finite elements: Hertz point contact",
-        "The contact of hertz_point by axisymmetric finite elements that share only the scene "
-        "with the semi-analytical solver: quadratic elements on a section of a hundred contact "
-        "radii, pressure linear between its rings, contact as a linear complementarity problem.",
-        judged(meshes, ON_MESHES),
-        charts=(
-            profile(
-                meshes,
-                "fem_hertz_profile",
-                "Pressure over the radius",
-                "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
-                "of the last elements at the edge.",
-                "p / p₀",
-                HERTZ.peak_pressure,
-                PRESSURE,
-            ),
-            convergence(
-                meshes,
-                ON_MESHES,
-                "fem_hertz_convergence",
-                "Convergence of the finite elements",
-                "Relative errors, root mean square over the positions of the edge in its "
-                "element, against the element side over the contact radius.",
-                also=(CONTACT_RADIUS,),
-            ),
-        ),
-        limits=(
-            "Away from the contact elements grow by the same ratio on every mesh, which leaves "
-            "errors of 2e-6 of the peak pressure and 6e-6 of the approach on the finest mesh.",
-            "The error of the radius is A h + B h². The term A, up to 0.003, stems from the "
-            "extrapolation of the edge from the last two pressures, the term B, about 0.1, from "
-            "the pressures. Neither term dominates on these meshes, so that there is no constant "
-            "order.",
-        ),
-        shows=("finite elements", "known solutions"),
-    )
-
-
-def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz contact of a ball by finite elements with a
-    penalty.
-
-    The penalty allows the surfaces to overlap. Judged are the error that the overlap causes, and
-    the results after one augmentation, which removes the overlap.
-    """
-    elements, factor = finest(level), 10.0
+    factor = 10.0
     mesh = with_edge_at(BALL, (elements,))
     springs, improved = (
         on_springs(mesh, f"c = {factor:g}, {words}", penalty=factor, augmentations=n, overlap=1.0)
@@ -618,24 +569,65 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
         Within(PEAK_PRESSURE, 2e-3, PENALTY, name="peak_pressure_of_springs"),
         Within(APPROACH, 2e-3, PENALTY, name="approach_of_springs"),
     )
+    return judged(improved, rows), judged(springs, of_springs), law
+
+
+def fem_hertz(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of the Hertz contact of a ball by finite elements on many
+    meshes, and with a penalty on one.
+
+    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
+    orders of convergence are judged.
+    """
+    meshes = with_edge_at(BALL, levels(level), order_levels(level))
+    improved, springs, law = _penalty_parts(finest(level))
     return case(
-        "fem_penalty_hertz",
-        "Finite elements with a penalty: Hertz point contact",
-        "The contact of fem_hertz with springs of stiffness ε = c E*/h between the surfaces at "
-        "the Gauss points of the contact edges, h being the length of an edge, instead of exact "
-        "contact. The overlap of the surfaces is governed by k = c a/h. One augmentation, in "
-        "which the pressures of the springs become forces that need no overlap, removes the "
-        "overlap.",
-        judged(improved, rows),
-        judged(springs, of_springs),
+        "fem_hertz",
+        "Finite elements: Hertz point contact",
+        "The contact of hertz_point by axisymmetric finite elements that share only the scene "
+        "with the semi-analytical solver: quadratic elements on a section of a hundred contact "
+        "radii, pressure linear between its rings, contact as a linear complementarity problem. "
+        "Other runs have springs of stiffness ε = c E*/h between the surfaces at the Gauss points "
+        "of the contact edges, h being the length of an edge. The overlap of the surfaces is "
+        "governed by k = c a/h. One augmentation, in which the pressures of the springs become "
+        "forces that need no overlap, removes the overlap.",
+        judged(meshes, ON_MESHES),
+        improved,
+        springs,
         quantities=(law,),
+        charts=(
+            profile(
+                meshes,
+                "fem_hertz_profile",
+                "Pressure over the radius",
+                "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
+                "of the last elements at the edge.",
+                "p / p₀",
+                HERTZ.peak_pressure,
+                PRESSURE,
+            ),
+            convergence(
+                meshes,
+                ON_MESHES,
+                "fem_hertz_convergence",
+                "Convergence of the finite elements",
+                "Relative errors, root mean square over the positions of the edge in its "
+                "element, against the element side over the contact radius.",
+                also=(CONTACT_RADIUS,),
+            ),
+        ),
         limits=(
-            "The measured error of the peak pressure is −0.54/k; there is no theory for that "
-            "number.",
+            "Away from the contact elements grow by the same ratio on every mesh, which leaves "
+            "errors of 2e-6 of the peak pressure and 6e-6 of the approach on the finest mesh.",
+            "The error of the radius is A h + B h². The term A, up to 0.003, stems from the "
+            "extrapolation of the edge from the last two pressures, the term B, about 0.1, from "
+            "the pressures. Neither term dominates on these meshes, so that there is no constant "
+            "order.",
+            "With a penalty the measured error of the peak pressure is −0.54/k; there is no theory "
+            "for that number.",
         ),
         equations=(r"\Delta\delta = \frac{p_0}{2\varepsilon},\quad \varepsilon = \frac{c E^*}{h}",),
-        no_order="error_law judges the error of the penalty, fem_hertz that of the mesh",
-        shows=("penalty",),
+        shows=("finite elements", "known solutions", "penalty"),
     )
 
 

@@ -38,6 +38,7 @@ from verification.judging.case import (
     computed_error,
 )
 from verification.judging.declared_case import (
+    PENALTY,
     SHEAR_AROUND,
     SQUARE_ROOTS,
     STICK_RADIUS,
@@ -49,6 +50,7 @@ from verification.judging.declared_case import (
     at_stops,
     case,
     error_norm,
+    finest,
     judged,
     levels,
     named,
@@ -56,6 +58,7 @@ from verification.judging.declared_case import (
     on_cells,
     on_elements,
     on_radii,
+    on_springs,
     order_levels,
     part_of_side,
     refinement,
@@ -361,6 +364,16 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
         ),
         Within(SHEAR_AROUND, scaled_tolerance(5e-3, 1.5), cusp),
     )
+    of_springs = at_stops(
+        TORQUE_PARTS,
+        SLIDING,
+        Within(TWIST, scaled_tolerance(1e-3, 1.5), PENALTY),
+        Within(SHEAR_AROUND, scaled_tolerance(1e-2, 1.5), PENALTY),
+    )
+    n = finest(level)
+    springs = on_springs(
+        on_elements(TWISTED, (n,), 0.97, "torsion"), f"torsion, {n} elements per radius, penalty"
+    )
     of_punch = (
         Within(
             TWIST,
@@ -375,8 +388,10 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
         "Finite elements: torsion",
         "The paper's ball under 1 kN is loaded by 0.5, 0.9 and 0.99 of the torque at gross slip, "
         "and a flat punch sticks completely, as in torsion. The only unknown is the "
-        "circumferential displacement; the pressure enters only through the friction limit.",
+        "circumferential displacement; the pressure enters only through the friction limit. The "
+        "ball is also solved with a penalty and Coulomb's law by return mapping.",
         judged(balls, of_ball),
+        judged(springs, of_springs),
         judged(on_elements(STUCK, levels(level), of="stuck punch"), of_punch),
         charts=tuple(
             profile(
