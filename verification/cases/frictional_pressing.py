@@ -659,24 +659,6 @@ OF_SPRINGS = (
     Within(CONTACT_RADIUS, part_of_side(0.12), "an eighth of an element: the last points ripple"),
     Within(PRESSURE, 5e-3, PENALTY),
     Within(SHEAR, 3e-2, PENALTY),
-    Reported(
-        error_norm(
-            "by_newton",
-            "increments that took Newton's method",
-            lambda result, *_: float(sum(i.path == "newton" for i in result.increments)),
-        ),
-        "all: no other method is required",
-    ),
-    Reported(
-        error_norm(
-            "systems",
-            "linear iterations per increment",
-            lambda result, *_: (
-                sum(i.iterations for i in result.increments) / len(result.increments)
-            ),
-        ),
-        "two passes each: penalty alone, then one augmentation",
-    ),
 )
 
 

@@ -202,15 +202,6 @@ def torsion(level: Level = Level.QUICK) -> Case:
         "twist",
         name="torque_of_given_twist",
     )
-    stuck_work = error_norm(
-        "stuck_work",
-        "energy dissipated by the stuck punch",
-        lambda result, step, problem: (
-            result.steps[step].dissipated_energy
-            / (problem.ends[step].moment * problem.ends[step].twist)
-        ),
-        "torque times twist",
-    )
     of_punch = (
         Within(
             TWIST,
@@ -219,7 +210,6 @@ def torsion(level: Level = Level.QUICK) -> Case:
             "changes the effective radius by up to half a cell",
             name="stuck_twist",
         ),
-        Within(stuck_work, 1e-12, "µ is twice the coefficient at which the rim slips"),
     )
     return case(
         "torsion",
