@@ -53,7 +53,6 @@ CASES = (
     "coated_paraboloid",
     "compliant_bond",
     "layered_identities",
-    "torsion_coated",
     "thin_layer",
     "frictional_indentation",
     "sheared_increments",
@@ -98,7 +97,7 @@ MODULES = {
         *("line_push", "line_loop", "line_shapes", "line_unlike", "line_on_elements"),
     ),
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
-    "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
+    "torsion": ("torsion", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (
         *(
             "coated_paraboloid",

@@ -215,13 +215,13 @@ SURFACE_RESPONSE = (
     Defect(
         "kappa-for-chi",
         "Shear waves reflect at the interface by κ instead of χ.",
-        ("layered_reference", "torsion_coated"),
+        ("layered_reference", "torsion"),
         _kappa_for_chi,
     ),
     Defect(
         "plane-stress",
         "The substrate has Kolosov's constant of plane stress.",
-        ("layered_reference", "layered_identities"),
+        ("layered_reference",),
         _plane_stress,
     ),
     Defect(
