@@ -34,7 +34,7 @@ from verification.closed_forms.line_contact import (
     WedgeContact,
     rounded_strip_load,
 )
-from verification.judging.case import Case, Level, compare_runs
+from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -51,6 +51,7 @@ from verification.judging.declared_case import (
     Observable,
     Within,
     case,
+    compared,
     error_norm,
     finest,
     judged,
@@ -510,16 +511,16 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
         **{"peak_pressure": of_peak, "approach": of_mean, "contact_radius": of_edge},
         **{"tangential_shift": of_peak, "stick_radius": of_edge},
     }
-    compared, runs = [], []
+    coated = []
     for pair, of in COATED_LINES.items():
         one, other = on_elements(of, (elements,), of=pair).judged, on_strips(of, of=pair)
-        runs += [one.run, other.judged.run]
         for step, allowed in enumerate((strips, strips_pushed)[: len(of.ends)]):
-            compared += [
-                compare_runs(
+            coated += [
+                compared(
                     f"{name}_of_{pair.replace(' ', '_')}",
                     f"difference of elements from strips: {name.replace('_', ' ')}, relative",
-                    (one.run.label, other.judged.run.label),
+                    one.run,
+                    other.judged.run,
                     partial(relative_difference, name, step),
                     own[name](one) + more,
                     "sum of the tolerances of both solvers for half-spaces",
@@ -541,8 +542,7 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
             on_elements(THIN_LAYER, (elements,), of="thin layer"),
             (Within(PEAK_PRESSURE, 2 / 80**2, OF_THIN),),
         ),
-        runs=tuple(runs),
-        quantities=tuple(compared),
+        *coated,
         equations=(
             r"u_z = \frac{1}{2\pi G} \left(\frac{z^2}{r^2} - 2 (1 - \nu) \ln\frac{r}{L}\right)"
             r"\ \text{at the end of the section}",
