@@ -758,11 +758,11 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
             SectionRun(f"{p.name}, elements", p.scene(pressing(3)), elements) for p in both
         )
         contacts.append((pair.name, ring, beside, on_rings_apart))
-    by_radii = tuple(
+    by_radii = [
         RadiiRun(f"{p.name}, rings", p.scene(pressing(3)), rings=128)
         for p in (pairs[0].exchanged, pairs[0])
-    )
-    contacts.append((pairs[0].name, *by_radii, on_rings_apart))
+    ]
+    contacts.append((pairs[0].name, by_radii[0], by_radii[1], on_rings_apart))
 
     return case(
         "exchanged_bodies",
@@ -977,12 +977,12 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
     power = 5  # of radius over box: the error if the boundary moves by the exact resultant
     # Coarser elements differ between the boxes by more than the boundary.
     mesh = per_radius((32, 48, 64)[level], PUNCH_RADIUS)
-    runs = [
+    small, large = (
         SectionRun(
             f"twisted, box of {box:g} radii", STUCK.scene, mesh.model_copy(update={"box": box})
         )
         for box in (near, far)
-    ]
+    )
     return case(
         "fem_far_field",
         "Finite elements: the half-space beyond the box",
@@ -993,7 +993,8 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         compared(
             "twist",
             "twist of the punch: relative difference",
-            *runs,
+            small,
+            large,
             partial(relative_difference, "twist", -1),
             near**-power,
             f"the resultant is known on the box; the next term falls with the power {power} "

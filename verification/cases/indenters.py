@@ -702,14 +702,13 @@ def _stiffness_difference(one: Any, other: Any) -> float:
     return float(np.max(np.abs(of(one) / of(other) - 1)))
 
 
-# The slope along an axis is a rotation about the other one.
-SLOPES = tuple(
-    replace(
-        number(f"tilt_{axis}", f"slope along {axis}", quantity=f"tilt_{other}"),
-        value=lambda exact, along=along: float(exact.tilt[along]),
-    )
-    for along, (axis, other) in enumerate(("xy", "yx"))
-)
+def _slope(along: int, axis: str, other: str) -> Observable:
+    """Create the observable of the slope along an axis, which is a rotation about the other one."""
+    tilt = number(f"tilt_{axis}", f"slope along {axis}", quantity=f"tilt_{other}")
+    return replace(tilt, value=lambda exact: float(exact.tilt[along]))
+
+
+SLOPES = (_slope(0, "x", "y"), _slope(1, "y", "x"))
 MOMENT_OF_TILT = number(
     "moment_of_given_tilt", "moment M_y at the prescribed tilt", quantity="moment_y", exact="moment"
 )
