@@ -45,6 +45,7 @@ from verification.judging.declared_case import (
     STAIRCASE,
     Falls,
     Judged,
+    Observable,
     Refined,
     RefinementLevels,
     SizedRun,
