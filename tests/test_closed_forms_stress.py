@@ -3,30 +3,21 @@ forces."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.huber_stress import (
     hamilton_stress,
-    sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
 from verification.closed_forms.torsion import (
-    CoatedTorsion,
     StuckTorsion,
-    TorsionalSurface,
-    one_layer,
 )
 
 
-def test_hamiltons_stress_is_that_of_sliding_on_the_axis_and_at_the_surface() -> None:
-    depth = np.array([0.01, 0.3, 1.0])
-    on_axis = hamilton_stress(1e-9, 0.0, depth, 1.0, 0.0, 1.0, 0.3)[4]
-    np.testing.assert_allclose(on_axis, sliding_axis_shear(depth, 1.0, 1.0), atol=1e-9)
+def test_hamiltons_stress_is_that_of_sliding_at_the_surface() -> None:
     x = np.array([-0.5, 0.5, 1.3])
     near = hamilton_stress(x, 0.0, 1e-6, 1.0, 0.0, 1.0, 0.3)[0]
     np.testing.assert_allclose(near, stress_by_hertz_shear(x, 1.0, 1.0, 0.3), atol=1e-5)
@@ -90,27 +81,3 @@ def test_pressure_of_a_tilted_punch_carries_force_and_moments():
     assert np.sum(p) == pytest.approx(W, rel=1e-3)
     e_x, e_y = state.eccentricity
     np.testing.assert_allclose([np.sum(p * x), np.sum(p * y)], [W * e_x, W * e_y], rtol=2e-3)
-
-
-def limit(r):
-    return MU * TWIST_PEAK * np.sqrt(np.maximum(1 - (r / TWIST_A) ** 2, 0.0))
-
-
-def coated(thickness=0.4, coating=2.0, base=0.5):
-    return TorsionalSurface(lambda k: one_layer(k, thickness, coating, base), coating, thickness)
-
-
-def twisted_film(ratio=0.6, **layer):
-    return CoatedTorsion(coated(**layer), TWIST_A, limit, ratio * TWIST_A)
-
-
-@given(
-    ratio=st.floats(0.11, 0.99),
-    thickness=st.floats(0.1, 3.0),
-    contrast=st.sampled_from([0.05, 0.3, 3.0, 20.0]),
-)
-def test_the_stick_disc_of_coated_bodies_turns_rigidly(ratio, thickness, contrast):
-    state = twisted_film(ratio, thickness=thickness, coating=1.0, base=contrast)
-    r = ratio * TWIST_A * np.array([0.1, 0.6, 1.0])
-    np.testing.assert_allclose(state.displacement(r), state.twist * r, rtol=1e-10)
-    assert 0 < state.torque < state.sliding_torque

@@ -14,6 +14,9 @@ from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
 from slipstick import solve
 from slipstick.cli.commands.convergence import SETTINGS
+from slipstick.convergence.levels import StudiedScene, plan_of
+from slipstick.convergence.limits import Estimate, estimates
+from slipstick.convergence.study import scene_study
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import PointContact, tangential_modulus
@@ -21,9 +24,6 @@ from verification.closed_forms.line_contact import CylinderContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.judging.outcome import Status
 from verification.references import load_reference
-from verification.studies.refinement.levels import StudiedScene, plan_of
-from verification.studies.refinement.limits import Estimate, estimates
-from verification.studies.refinement.study import scene_study
 
 R = 18e-3
 W = 1e3

@@ -85,7 +85,6 @@ LONG = (
     "series_spring",
     "strained_ball",
     "torsion",
-    "torsion_coated",
 )
 # Numbers that remain right: the waves that a judge sums grow in number with a wrong contact radius.
 RIGHT = {"radial_stress": ("contact_radius",)}

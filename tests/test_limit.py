@@ -32,7 +32,6 @@ from contact_scene.solver_errors import ContactAtWindowEdge
 from slipstick.critical_load import LoadFactorSearch, critical_loads
 from verification.closed_forms.hertz import PointContact, contact_modulus
 from verification.closed_forms.huber_stress import (
-    axis_stress,
     huber_stress,
     trailing_edge_tension,
 )
@@ -77,7 +76,7 @@ def yield_on_axis(nu: float) -> tuple[float, float]:
     """Largest von Mises stress below a pressed ball over p0, and its depth over a."""
 
     def stress(z: float) -> float:
-        found = axis_stress(z, 1.0, 1.0, nu)
+        found = huber_stress(0.0, z, 1.0, 1.0, nu)
         return float(abs(found.axial - found.radial))
 
     at = minimize_scalar(lambda z: -stress(z), bounds=(0.0, 2.0), options={"xatol": 1e-9})

@@ -4,7 +4,7 @@ angles.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -63,6 +63,19 @@ def shear_of(increment: Increment) -> Field:
     if increment.shear is None:
         return np.zeros((2, *increment.pressure.shape))
     return increment.shear
+
+
+def relative_difference(name: str, step: int, one: Any, other: Any) -> float:
+    """Compute the relative difference of a scalar of two results at the end of a load step [1].
+
+    Vectors are compared by their magnitudes.
+
+    name        registered name of the scalar, such as "approach"
+    step        index of the load step
+    one, other  results of any solvers; the difference is relative to the second
+    """
+    found, expected = (np.linalg.norm(getattr(end.steps[step], name)) for end in (one, other))
+    return float(abs(found / expected - 1))
 
 
 def energy_between(result: Result, first: int, last: int) -> float:

@@ -51,15 +51,12 @@ CASES = (
     "exchanged_bodies",
     "led_histories",
     "coated_paraboloid",
-    "coated_unlike_ratios",
     "compliant_bond",
     "layered_identities",
-    "torsion_coated",
     "thin_layer",
     "frictional_indentation",
     "sheared_increments",
     "no_slip_indentation",
-    "spence_example",
     "subsurface_stress",
     "radial_pressing",
     "radial_indentation",
@@ -78,8 +75,6 @@ CASES = (
     "fem_far_field",
     "cross_check",
     "external_codes",
-    "fem_penalty_hertz",
-    "fem_penalty_slip",
     "layered_reference",
     "frf_laws",
     "worked_examples",
@@ -89,24 +84,23 @@ CASES = (
 MODULES = {
     "indenters": (
         *("hertz_point", "hertz_exact_sphere", "hertz_approach_control", "hertz_unloading"),
-        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz", "fem_penalty_hertz"),
+        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz"),
         *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
     ),
     "worked_examples": ("worked_examples", "written_files"),
     "partial_slip": ("cattaneo_mindlin", "near_sliding"),
     "fretting": (
-        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
+        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip"),
         *("radial_tangential", "growing_loads"),
     ),
     "line_contacts": (
         *("line_push", "line_loop", "line_shapes", "line_unlike", "line_on_elements"),
     ),
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
-    "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
+    "torsion": ("torsion", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (
         *(
             "coated_paraboloid",
-            "coated_unlike_ratios",
             "compliant_bond",
             "layered_identities",
             "thin_layer",
@@ -115,7 +109,7 @@ MODULES = {
     ),
     "frictional_pressing": (
         *("frictional_indentation", "sheared_increments"),
-        *("no_slip_indentation", "spence_example", "fem_indentation", "fem_increments"),
+        *("no_slip_indentation", "fem_indentation", "fem_increments"),
         "radial_indentation",
     ),
     "histories": (

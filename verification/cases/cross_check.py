@@ -66,7 +66,7 @@ from verification.problems.problem import (
     square_grid,
     tangential_step,
 )
-from verification.quantities import shear_of, shift_along_x
+from verification.quantities import relative_difference, shear_of
 from verification.references import load_reference
 
 Results = Mapping[str, Any]
@@ -208,7 +208,7 @@ class Contact:
             ),
             "approach": (
                 "approach, relative",
-                lambda k, one, other: abs(one.steps[k].approach / other.steps[k].approach - 1),
+                partial(relative_difference, "approach"),
                 2e-4,
                 HAND,
             ),
@@ -227,7 +227,12 @@ class Contact:
                 3e-2,
                 ASKED,
             )
-            measures["shift"] = ("shift, relative", shift_apart, 1.5e-3, HAND)
+            measures["shift"] = (
+                "shift, relative",
+                partial(relative_difference, "tangential_shift"),
+                1.5e-3,
+                HAND,
+            )
         parts = (0.0, *PARTS) if self.harmonics else (0.0,)
         return tuple(
             compare_runs(
@@ -320,15 +325,6 @@ class Contact:
             )
         )
         return pressure, shear
-
-
-def shift_apart(step: int, one: Any, other: Any) -> float:
-    """Compute the relative difference of the tangential shift between two results [1].
-
-    step        index of the load step, at whose end the shifts are compared
-    one, other  results of two solvers; the difference is relative to the second
-    """
-    return float(abs(shift_along_x(one.steps[step]) / shift_along_x(other.steps[step]) - 1))
 
 
 def _stick_apart(step: int, one: Any, other: Any) -> float:

@@ -16,7 +16,6 @@ import numpy as np
 from contact_results.surface import surface_of
 from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
-from verification.cases.torsion import SLIDING, shear_around
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import OVER_ANGLES, Case, Level, Run
 from verification.judging.declared_case import (
@@ -24,16 +23,13 @@ from verification.judging.declared_case import (
     ASKED,
     ENERGY,
     ENERGY_PER_CYCLE,
-    JUDGED_BY,
     LARGEST_SHEAR_ERROR,
     LARGEST_SHIFT_ERROR,
     LARGEST_STICK_RADIUS_ERROR,
     SHEAR,
-    SHEAR_AROUND,
     SHIFT,
     SQUARE_ROOTS,
     STICK_RADIUS,
-    TWIST,
     WORK,
     Drawing,
     Falls,
@@ -50,7 +46,6 @@ from verification.judging.declared_case import (
     finest,
     judged,
     ladder,
-    named,
     number,
     on_cells,
     on_elements,
@@ -61,7 +56,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.drawings import ProfileLabels, Section, convergence, profile, radial_chart
+from verification.judging.drawings import ProfileLabels, Section, convergence, radial_chart
 from verification.judging.field_errors import away_from_edges
 from verification.observed.ring_errors import judged_within
 from verification.problems.cattaneo_mindlin import (
@@ -75,8 +70,6 @@ from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     PRESSED,
-    TORQUE_PARTS,
-    TWISTED,
     ExactLoop,
     fretting_loop_problem,
     growing,
@@ -407,12 +400,7 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
     """
     cells = (128, 256, 512) if level is Level.FULL else (128, 256)
     problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter=4)
-    grids, wide = on_cells(problem, cells, FRETTING_WINDOW), on_cells(problem, cells[:1])
-    on_wide_window = Reported(
-        LARGEST_SHEAR_ERROR,
-        "the same number of cells on a window of three contact radii: cells 1.36 times as large, "
-        "errors 1.36^(3/2) = 1.6 times",
-    )
+    grids = on_cells(problem, cells, FRETTING_WINDOW)
     return case(
         "fretting_loop",
         "Fretting loop, ν = 0",
@@ -422,7 +410,6 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
         "results for fretting: slip amplitude, Ruiz's parameters, and the balance of work, "
         "stored and dissipated energy.",
         judged(grids, _cycle_rows()),
-        judged(named(f"{wide.levels[0]}, window 3 a", wide), (on_wide_window,)),
         charts=(
             lambda results: hysteresis_chart(
                 "fretting_hysteresis", results[grids.judged.run.label], problem.ends[-1]
@@ -625,7 +612,11 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     once = sheared(
         "Two alike bodies with ν = 0 sheared once, by finite elements", tuple(STOPPED.values())
     )
-    mesh = on_elements(LOOP, (finest(level),), over=0.97)
+    n = finest(level)
+    mesh = on_elements(LOOP, (n,), over=0.97)
+    springs = on_springs(
+        on_elements(LOOP, (n,), 0.97, "loop"), f"loop, {n} elements per radius, penalty"
+    )
     shearing = with_edge_at(once, (), studied, "sheared once")
     listed = "0.3, 0.45, 0.6, 0.75 and 0.9 µW"
     also_by_cells = {step: part for step, part in STOPPED.items() if part in (0.3, 0.6, 0.9)}
@@ -686,8 +677,11 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
         "load that is uniform around each ring. Slip across the load is neglected, as in the "
         "closed form for any ν. The shear solves a quadratic program within ±µp. Orders are "
         f"judged for a single loading with stops at {listed}, for ν = 0: there is no slip across "
-        "the load, and the closed form is exact.",
+        "the load, and the closed form is exact. With a penalty along the surface the shear obeys "
+        "Coulomb's law by return mapping, and the accumulated slip of a point is the position of "
+        "its spring without load.",
         judged(mesh, (*OF_LOOP, stick_of_loop)),
+        judged(springs, OF_LOOP),
         judged(shearing, (*rows, *falls) if orders else rows),
         charts=(
             *(
@@ -704,59 +698,18 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
                     (LOADED + 1, "reversed", "-0.9"),
                 )
             ),
+            _loop_profile(
+                springs,
+                LOADED,
+                "fem_partial_slip_penalty",
+                "at 0.9 µW",
+                "Shear at the Gauss points, the closed form, and their difference.",
+            ),
             *(of_orders if orders else ()),
         ),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
-        shows=("finite elements", "load history"),
-    )
-
-
-def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of partial slip by finite elements with a penalty method.
-
-    A fretting loop and a ball in torsion are compared with closed forms. The penalty method allows
-    a small elastic slip before Coulomb's law is applied.
-    """
-    gauss = "Shear at the Gauss points, the closed form, and their difference."
-    n = (finest(level),)
-    of_loop, ball = (
-        on_springs(on_elements(problem, n, 0.97, of), f"{of}, {n[0]} elements per radius, penalty")
-        for of, problem in {"loop": LOOP, "torsion": TWISTED}.items()
-    )
-    of_ball = at_stops(
-        TORQUE_PARTS,
-        SLIDING,
-        Within(
-            TWIST,
-            lambda rung: 2 * OF_SHIFT(rung),
-            "twice the tolerance of the shift of the loop, for the same reason",
-        ),
-        Within(SHEAR_AROUND, OF_SHEAR, WHY),
-    )
-    return case(
-        "fem_penalty_slip",
-        "Finite elements with a penalty: fretting loop and torsion",
-        "The loop of fem_partial_slip and the ball of fem_torsion with a penalty along the "
-        "surface and Coulomb's law by return mapping. The accumulated slip of a point is the "
-        "position of its spring without load.",
-        judged(of_loop, OF_LOOP),
-        judged(ball, of_ball),
-        charts=(
-            _loop_profile(of_loop, LOADED, "fem_penalty_slip_loop", "at 0.9 µW", gauss),
-            profile(
-                ball,
-                "fem_penalty_slip_torsion",
-                f"Shear over the radius, at {TORQUE_PARTS[2]:g} {SLIDING}",
-                gauss,
-                "q / µp₀",
-                TWISTED.scale(OVER_LIMIT),
-                shear_around(2),
-            ),
-        ),
-        limits=(ACROSS,),
-        no_order=JUDGED_BY.format("fem_partial_slip and fem_torsion"),
-        shows=("penalty",),
+        shows=("finite elements", "load history", "penalty"),
     )
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import atanh, exp, log, sqrt
+from math import atanh, exp, log
 from typing import Any
 
 import numpy as np
@@ -20,15 +20,11 @@ from scipy.special import ellipkm1
 from contact_scene import (
     RIGID,
     Body,
-    CoulombFriction,
     FlatPunch,
     IsotropicMaterial,
     LoadStep,
-    Paraboloid,
-    Scene,
 )
 from contact_scene.discretisation import EdgeCorrection
-from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
 from verification.judging import field_errors
 from verification.judging.case import (
@@ -38,9 +34,7 @@ from verification.judging.case import (
     Level,
     NotYetAsymptotic,
     Order,
-    Quantity,
     Refinement,
-    Required,
     Run,
     SectionRun,
     compare_runs,
@@ -78,7 +72,6 @@ from verification.observed.ring_errors import (
     approach,
     at_radii,
     contact_radius,
-    peak_pressure,
     stick_radius,
 )
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
@@ -100,7 +93,6 @@ from verification.problems.problem import (
     ROUNDING,
     WINDOW_PER_RADIUS,
     Problem,
-    Reference,
     ReferenceKind,
     half_space,
     pressed,
@@ -108,7 +100,7 @@ from verification.problems.problem import (
     rigid_ball,
     square_grid,
 )
-from verification.quantities import shear_of, shift_along_x
+from verification.quantities import relative_difference, shear_of
 
 # Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
 SMALLEST = -340.0
@@ -364,18 +356,8 @@ class Refined:
         return draw
 
 
-def _approach_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative change of the approach from a coarse to a fine run at the end of the
-    history.
-    """
-    return abs(approach(coarse) / approach(fine) - 1)
-
-
-def _shift_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative change of the tangential shift from a coarse to a fine run, at the last
-    step.
-    """
-    return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
+APPROACH_CHANGE = partial(relative_difference, "approach", -1)
+SHIFT_CHANGE = partial(relative_difference, "tangential_shift", -1)
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
@@ -476,9 +458,9 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         runs,
         "1 / increments of a step",
         (
-            change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
+            change(Followed.SHIFT, "tangential shift", SHIFT_CHANGE, 1.0, backward, name="shift"),
             change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
-            change(Followed.APPROACH, "approach", _approach_change, 1.0, backward),
+            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 1.0, backward),
         ),
         apart=1,
         left_out={Followed.APPROACH: 1},
@@ -498,7 +480,7 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
                 "shift",
                 f"change of the shift from {counts[-2]} to {counts[-1]} increments",
                 (runs[-2].label, runs[-1].label),
-                _shift_change,
+                SHIFT_CHANGE,
                 2e-2 * 4 / counts[-2],
                 "2 % from 4 to 8 increments, and half of that with each further doubling: first "
                 "order",
@@ -660,89 +642,6 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     )
 
 
-def spence_example(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a published example of Kalker's program CONTACT.
-
-    The example is Spence's problem: a rigid paraboloid is pressed with friction, and half of the
-    contact radius sticks. It is solved on the published grid and compared with the published
-    numbers.
-    """
-    # The units of CONTACT are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
-    mm, megapascal = 1e-3, 1e6
-    cells, side, increments = 45, 0.2 * mm, 35
-    contact_cells, stick_cells = 921, 225
-    radius = sqrt(contact_cells / np.pi) * side
-    material = IsotropicMaterial(young_modulus=1 * megapascal, poisson_ratio=0.0)
-    scene = Scene(
-        title="CONTACT's example of Spence's problem",
-        indenter=Paraboloid(radius=mm / (2 * 0.004116), material=RIGID),
-        body=Body(material=material),
-        friction=CoulombFriction(coefficient=0.2986),
-        loading=(LoadStep(normal_force=(increments / 45) ** 3, increments=increments),),
-    )
-    # The published numbers are those of tractions that are constant on these cells.
-    grid = SurfaceGrid((cells, cells), (cells * side, cells * side))
-    run = Run("45 x 45, edge off", scene, grid, edge="off")
-
-    def counted(result: Any) -> float:
-        end = result.steps[-1]
-        return sqrt(np.count_nonzero(end.in_stick) / np.count_nonzero(end.in_contact))
-
-    def published(value: float, uncertainty: float) -> Reference:
-        source = "CONTACT, example of Spence's problem: published output"
-        return Reference(value, ReferenceKind.EXTERNAL_CODE, source, uncertainty)
-
-    return case(
-        "spence_example",
-        "CONTACT's Spence example",
-        "A rigid paraboloid is pressed with µ = 0.2986 on a half-space with ν = 0 in 35 equal "
-        "steps of the contact radius: half of the radius sticks. Cells and steps are those of "
-        "the published example, so that the two programs can be compared cell by cell.",
-        runs=(run,),
-        quantities=(
-            Quantity(
-                "approach",
-                "approach of the bodies since first touch",
-                "m",
-                run.label,
-                approach,
-                published(0.09874 * mm, 0.5e-5 * mm),
-                Required(2e-4, "four times half a digit of what is printed"),
-            ),
-            Quantity(
-                "peak_pressure",
-                "largest pressure of any cell",
-                "Pa",
-                run.label,
-                peak_pressure,
-                published(0.02392 * megapascal, 0.5e-5 * megapascal),
-                Required(1e-3, "both codes take the mean over the same cell"),
-            ),
-            Quantity(
-                "stick_ratio",
-                "√(cells that stick / cells in contact)",
-                "",
-                run.label,
-                counted,
-                published(
-                    sqrt(stick_cells / contact_cells),
-                    0.5 / sqrt(stick_cells * contact_cells),  # one cell of the stick zone
-                ),
-                Required(
-                    0.1 * side / radius,
-                    "both codes count cells: a tenth of a cell, where one cell was the target",
-                ),
-                1.0,
-                "the contact radius",
-            ),
-        ),
-        limits=("The published output has four to five digits.",),
-        equations=HALF.problem(1).equations,
-        no_order="the published example has one grid",
-        shows=("known solutions", "other codes"),
-    )
-
-
 def _mesh_level(one: Indentation, elements: int, increments: int) -> RefinementLevels:
     """Create the finite element run of an indentation with a tabulated solution, as a refinement
     level.
@@ -760,24 +659,6 @@ OF_SPRINGS = (
     Within(CONTACT_RADIUS, part_of_side(0.12), "an eighth of an element: the last points ripple"),
     Within(PRESSURE, 5e-3, PENALTY),
     Within(SHEAR, 3e-2, PENALTY),
-    Reported(
-        error_norm(
-            "by_newton",
-            "increments that took Newton's method",
-            lambda result, *_: float(sum(i.path == "newton" for i in result.increments)),
-        ),
-        "all: no other method is required",
-    ),
-    Reported(
-        error_norm(
-            "systems",
-            "linear iterations per increment",
-            lambda result, *_: (
-                sum(i.iterations for i in result.increments) / len(result.increments)
-            ),
-        ),
-        "two passes each: penalty alone, then one augmentation",
-    ),
 )
 
 
@@ -866,11 +747,11 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
         ),
         "1 / increments",
         (
-            change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
+            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 2.0, KEPT_SLIP),
             change(
                 Followed.CONTACT_RADIUS,
                 "contact radius",
-                lambda coarse, fine: abs(contact_radius(coarse) / contact_radius(fine) - 1),
+                partial(relative_difference, "contact_radius", -1),
                 2.0,
                 KEPT_SLIP,
             ),

@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from math import pi, sqrt
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, LoadStep, Paraboloid, Sphere
-from contact_scene.quantities.residuals import worst
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.hertz import PointContact, SphereContact
 from verification.judging.case import (
-    SOLVER_TOLERANCE,
     Case,
     Level,
     NotYetAsymptotic,
@@ -46,8 +44,10 @@ from verification.judging.declared_case import (
     PRESSURE_WITHIN,
     STAIRCASE,
     Falls,
+    Judged,
     Observable,
     Refined,
+    RefinementLevels,
     SizedRun,
     Within,
     because,
@@ -55,6 +55,7 @@ from verification.judging.declared_case import (
     error_norm,
     finest,
     judged,
+    ladder,
     levels,
     meshed,
     named,
@@ -94,8 +95,6 @@ from verification.problems.problem import (
     Problem,
     Reference,
     ReferenceKind,
-    coated,
-    film,
     frictionless,
     paraboloid,
     pressed,
@@ -299,22 +298,10 @@ def on_smaller(figure: float, order: float) -> Callable[[SizedRun], float]:
     return allowed
 
 
-def _pressure_and_approach(one: Any, other: Any) -> float:
-    """Compute the difference of two final states: the larger of Σ|Δp|/Σp and |Δapproach|/approach
-    [1].
-
-    Used to compare an unloaded contact with a contact that is loaded once to the same force.
-    """
-    a, b = one.steps[-1], other.steps[-1]
-    pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
-    return worst(float(pressure), abs(a.approach / b.approach - 1))
-
-
 def hertz_unloading(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a frictionless contact that is loaded and partly unloaded.
 
-    Without friction the history has no effect. The end state is compared with Hertz theory, and for
-    coated bodies with a single loading by the smaller force.
+    Without friction the history has no effect. The end state is compared with Hertz theory.
     """
     cells, elements = {
         Level.QUICK: (128, 32),
@@ -364,46 +351,14 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
         Within(stored, on_smaller(2e-4, 2), twice),
     )
-    films = {
-        way: replace(
-            BALL,
-            scene=pressed(
-                f"Rigid ball on a coated body, {way}", rigid_ball(), coated(film(2.0, 1.0)), *steps
-            ),
-        )
-        for way, steps in {
-            "pressed and unloaded": (pressing(), down),
-            "pressed by the smaller force": (down,),
-        }.items()
-    }
-    grids = [named(f"coated, {way}", on_cells(one, (cells,))) for way, one in films.items()]
-    meshes = [
-        named(f"coated, {way}, elements", with_edge_at(one, (elements,)))
-        for way, one in films.items()
-    ]
     return case(
         "hertz_unloading",
         "Unloading without friction",
         f"The paper's ball is pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction "
         "the contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
-        "force. A coated body is unloaded in the same way, and compared with a single loading by "
-        "the smaller force.",
+        "force.",
         judged(on_cells(problem, (cells,)), on_grid),
         judged(with_edge_at(problem, (elements,)), on_mesh),
-        runs=tuple(pair[k].judged.run for k in (0, 1) for pair in (grids, meshes)),
-        quantities=tuple(
-            compare_runs(
-                "path_independence",
-                "difference of pressure and approach from those of a single "
-                "loading by the smaller force",
-                (back.levels[0], once.levels[0]),
-                _pressure_and_approach,
-                10 * SOLVER_TOLERANCE,
-                "residuals of two solves, amplified a few times in the tractions",
-                "without friction the contact does not depend on the load path",
-            )
-            for back, once in (grids, meshes)
-        ),
         no_order=JUDGED_BY.format("hertz_point and fem_hertz"),
         shows=("(5)", "load history"),
     )
@@ -524,62 +479,12 @@ ON_MESHES = (
 )
 
 
-def fem_hertz(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz contact of a ball by finite elements on many
-    meshes.
+def _penalty_parts(elements: int) -> tuple[Judged, Judged, Quantity]:
+    """Return the judged runs of the Hertz contact with a penalty, and the law of its error.
 
-    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
-    orders of convergence are judged.
+    The penalty allows the surfaces to overlap. One augmentation removes the overlap.
     """
-    meshes = with_edge_at(BALL, levels(level), order_levels(level))
-    return case(
-        "fem_hertz",
-        "Finite elements: Hertz point contact",
-        "The contact of hertz_point by axisymmetric finite elements that share only the scene "
-        "with the semi-analytical solver: quadratic elements on a section of a hundred contact "
-        "radii, pressure linear between its rings, contact as a linear complementarity problem.",
-        judged(meshes, ON_MESHES),
-        charts=(
-            profile(
-                meshes,
-                "fem_hertz_profile",
-                "Pressure over the radius",
-                "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
-                "of the last elements at the edge.",
-                "p / p₀",
-                HERTZ.peak_pressure,
-                PRESSURE,
-            ),
-            convergence(
-                meshes,
-                ON_MESHES,
-                "fem_hertz_convergence",
-                "Convergence of the finite elements",
-                "Relative errors, root mean square over the positions of the edge in its "
-                "element, against the element side over the contact radius.",
-                also=(CONTACT_RADIUS,),
-            ),
-        ),
-        limits=(
-            "Away from the contact elements grow by the same ratio on every mesh, which leaves "
-            "errors of 2e-6 of the peak pressure and 6e-6 of the approach on the finest mesh.",
-            "The error of the radius is A h + B h². The term A, up to 0.003, stems from the "
-            "extrapolation of the edge from the last two pressures, the term B, about 0.1, from "
-            "the pressures. Neither term dominates on these meshes, so that there is no constant "
-            "order.",
-        ),
-        shows=("finite elements", "known solutions"),
-    )
-
-
-def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz contact of a ball by finite elements with a
-    penalty.
-
-    The penalty allows the surfaces to overlap. Judged are the error that the overlap causes, and
-    the results after one augmentation, which removes the overlap.
-    """
-    elements, factor = finest(level), 10.0
+    factor = 10.0
     mesh = with_edge_at(BALL, (elements,))
     springs, improved = (
         on_springs(mesh, f"c = {factor:g}, {words}", penalty=factor, augmentations=n, overlap=1.0)
@@ -617,24 +522,65 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
         Within(PEAK_PRESSURE, 2e-3, PENALTY, name="peak_pressure_of_springs"),
         Within(APPROACH, 2e-3, PENALTY, name="approach_of_springs"),
     )
+    return judged(improved, rows), judged(springs, of_springs), law
+
+
+def fem_hertz(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of the Hertz contact of a ball by finite elements on many
+    meshes, and with a penalty on one.
+
+    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
+    orders of convergence are judged.
+    """
+    meshes = with_edge_at(BALL, levels(level), order_levels(level))
+    improved, springs, law = _penalty_parts(finest(level))
     return case(
-        "fem_penalty_hertz",
-        "Finite elements with a penalty: Hertz point contact",
-        "The contact of fem_hertz with springs of stiffness ε = c E*/h between the surfaces at "
-        "the Gauss points of the contact edges, h being the length of an edge, instead of exact "
-        "contact. The overlap of the surfaces is governed by k = c a/h. One augmentation, in "
-        "which the pressures of the springs become forces that need no overlap, removes the "
-        "overlap.",
-        judged(improved, rows),
-        judged(springs, of_springs),
+        "fem_hertz",
+        "Finite elements: Hertz point contact",
+        "The contact of hertz_point by axisymmetric finite elements that share only the scene "
+        "with the semi-analytical solver: quadratic elements on a section of a hundred contact "
+        "radii, pressure linear between its rings, contact as a linear complementarity problem. "
+        "Other runs have springs of stiffness ε = c E*/h between the surfaces at the Gauss points "
+        "of the contact edges, h being the length of an edge. The overlap of the surfaces is "
+        "governed by k = c a/h. One augmentation, in which the pressures of the springs become "
+        "forces that need no overlap, removes the overlap.",
+        judged(meshes, ON_MESHES),
+        improved,
+        springs,
         quantities=(law,),
+        charts=(
+            profile(
+                meshes,
+                "fem_hertz_profile",
+                "Pressure over the radius",
+                "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
+                "of the last elements at the edge.",
+                "p / p₀",
+                HERTZ.peak_pressure,
+                PRESSURE,
+            ),
+            convergence(
+                meshes,
+                ON_MESHES,
+                "fem_hertz_convergence",
+                "Convergence of the finite elements",
+                "Relative errors, root mean square over the positions of the edge in its "
+                "element, against the element side over the contact radius.",
+                also=(CONTACT_RADIUS,),
+            ),
+        ),
         limits=(
-            "The measured error of the peak pressure is −0.54/k; there is no theory for that "
-            "number.",
+            "Away from the contact elements grow by the same ratio on every mesh, which leaves "
+            "errors of 2e-6 of the peak pressure and 6e-6 of the approach on the finest mesh.",
+            "The error of the radius is A h + B h². The term A, up to 0.003, stems from the "
+            "extrapolation of the edge from the last two pressures, the term B, about 0.1, from "
+            "the pressures. Neither term dominates on these meshes, so that there is no constant "
+            "order.",
+            "With a penalty the measured error of the peak pressure is −0.54/k; there is no theory "
+            "for that number.",
         ),
         equations=(r"\Delta\delta = \frac{p_0}{2\varepsilon},\quad \varepsilon = \frac{c E^*}{h}",),
-        no_order="error_law judges the error of the penalty, fem_hertz that of the mesh",
-        shows=("penalty",),
+        shows=("finite elements", "known solutions", "penalty"),
     )
 
 
@@ -728,19 +674,6 @@ ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
-def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
-    """Return one component of a vector quantity at the end of the last load step.
-
-    The result is NaN if the increment does not have the quantity.
-
-    name    name of the quantity, such as "tilt"
-    axis    index of the component
-    result  result of a solver
-    """
-    vector = getattr(result.steps[-1], name)
-    return float("nan") if vector is None else float(vector[axis])
-
-
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest relative pressure error of a flat punch within half its radius [1].
 
@@ -770,8 +703,16 @@ def _stiffness_difference(one: Any, other: Any) -> float:
     return float(np.max(np.abs(of(one) / of(other) - 1)))
 
 
-def _exact_slope(axis: int, exact: Any) -> float:
-    return float(exact.tilt[axis])
+def _slope(along: int, axis: str, other: str) -> Observable:
+    """Create the observable of the slope along an axis, which is a rotation about the other one."""
+    tilt = number(f"tilt_{axis}", f"slope along {axis}", quantity=f"tilt_{other}")
+    return replace(tilt, value=lambda exact: float(exact.tilt[along]))
+
+
+SLOPES = (_slope(0, "x", "y"), _slope(1, "y", "x"))
+MOMENT_OF_TILT = number(
+    "moment_of_given_tilt", "moment M_y at the prescribed tilt", quantity="moment_y", exact="moment"
+)
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
@@ -808,20 +749,12 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     rows = (
         *(
             Within(
-                # The slope along an axis is a rotation about the other one.
-                Observable(
-                    f"tilt_{axis}",
-                    f"slope along {axis}",
-                    "rad",
-                    partial(_vector_component, "tilt", 1 - along),
-                    partial(_exact_slope, along),
-                    scalar=("tilt", 1 - along),
-                ),
+                slope,
                 part_of_side(1.5),
                 "one and a half cells over the radius, because the tilt depends on its third "
                 f"power: {STAIRCASE}",
             )
-            for along, axis in enumerate("xy")
+            for slope in SLOPES
         ),
         Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
         Within(
@@ -920,21 +853,12 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         )
     )
 
-    def rolled(
-        name: str, meaning: str, unit: str, run: str, scalar: tuple[str, int], value: float
-    ) -> Quantity:
-        reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
-        return Quantity(
-            name,
-            meaning,
-            unit,
-            run,
-            partial(_vector_component, *scalar),
-            reference,
-            Required(1e-6, ROLLED),
-            scalar=(*scalar, -1),
-        )
+    def known(run: Run, **exact: Any) -> RefinementLevels:
+        ends = (SimpleNamespace(**exact),)
+        problem = Problem(run.scene, ends, HERTZ.contact_radius, source, ReferenceKind.IDENTITY)
+        return ladder(problem, [SizedRun(run, cells)])
 
+    _, beside, given, *_ = runs
     return case(
         "eccentric_ball",
         "Ball with an eccentric force",
@@ -942,27 +866,10 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         "rolls until the contact is below the force. The contact then equals the centred "
         "contact, shifted by whole cells, so that the fields agree to the tolerance of the "
         "solver, also for coupled pressure and shear.",
+        judged(known(beside, tilt=roll), [Within(slope, 1e-6, ROLLED) for slope in SLOPES]),
+        judged(known(given, moment=NORMAL_FORCE * e[0]), [Within(MOMENT_OF_TILT, 1e-6, ROLLED)]),
         runs=runs,
         quantities=(
-            *(
-                rolled(
-                    f"tilt_{axis}",
-                    f"slope along {axis}",
-                    "rad",
-                    "beside",
-                    ("tilt", 1 - along),
-                    roll[along],
-                )
-                for along, axis in enumerate("xy")
-            ),
-            rolled(
-                "moment_of_given_tilt",
-                "moment M_y at the prescribed tilt",
-                "N m",
-                "given tilt",
-                ("moment", 1),
-                NORMAL_FORCE * e[0],
-            ),
             *(
                 compare_runs(
                     f"fields{suffix}",

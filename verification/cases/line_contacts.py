@@ -34,7 +34,7 @@ from verification.closed_forms.line_contact import (
     WedgeContact,
     rounded_strip_load,
 )
-from verification.judging.case import Case, Level, compare_runs
+from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -51,6 +51,7 @@ from verification.judging.declared_case import (
     Observable,
     Within,
     case,
+    compared,
     error_norm,
     finest,
     judged,
@@ -72,6 +73,7 @@ from verification.problems.problem import (
     Problem,
     ReferenceKind,
 )
+from verification.quantities import relative_difference
 
 TARGET = f"accuracy target of line contacts at {STRIPS} strips, the default"
 DISTANCE = 20e-3  # at which the surface does not move
@@ -473,13 +475,6 @@ COATED_LINES = {
 }
 
 
-def _apart(name: str, step: int, one: Any, other: Any) -> float:
-    """Return the relative difference of a number of two results at the end of a load step."""
-    ends = one.steps[step], other.steps[step]
-    found, expected = (np.linalg.norm(getattr(end, name)) for end in ends)
-    return float(abs(found / expected - 1))
-
-
 def line_on_elements(level: Level = Level.QUICK) -> Case:
     """Create the verification case of line contacts on plane-strain elements.
 
@@ -516,17 +511,17 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
         **{"peak_pressure": of_peak, "approach": of_mean, "contact_radius": of_edge},
         **{"tangential_shift": of_peak, "stick_radius": of_edge},
     }
-    compared, runs = [], []
+    coated = []
     for pair, of in COATED_LINES.items():
         one, other = on_elements(of, (elements,), of=pair).judged, on_strips(of, of=pair)
-        runs += [one.run, other.judged.run]
         for step, allowed in enumerate((strips, strips_pushed)[: len(of.ends)]):
-            compared += [
-                compare_runs(
+            coated += [
+                compared(
                     f"{name}_of_{pair.replace(' ', '_')}",
                     f"difference of elements from strips: {name.replace('_', ' ')}, relative",
-                    (one.run.label, other.judged.run.label),
-                    partial(_apart, name, step),
+                    one.run,
+                    other.judged.run,
+                    partial(relative_difference, name, step),
                     own[name](one) + more,
                     "sum of the tolerances of both solvers for half-spaces",
                     "strips, which share only the scene",
@@ -547,8 +542,7 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
             on_elements(THIN_LAYER, (elements,), of="thin layer"),
             (Within(PEAK_PRESSURE, 2 / 80**2, OF_THIN),),
         ),
-        runs=tuple(runs),
-        quantities=tuple(compared),
+        *coated,
         equations=(
             r"u_z = \frac{1}{2\pi G} \left(\frac{z^2}{r^2} - 2 (1 - \nu) \ln\frac{r}{L}\right)"
             r"\ \text{at the end of the section}",

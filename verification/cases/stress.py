@@ -29,10 +29,8 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface
 from semi_analytical.stress.near_edge import NearEdge, near_edge
 from verification.closed_forms.huber_stress import (
-    axis_stress,
     hamilton_stress,
     huber_stress,
-    sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
     trailing_edge_tension,
@@ -82,8 +80,9 @@ HAMILTON_EQUATION = (
 )
 SLIDING = 0.3  # shear over pressure
 CELLS = 256  # per side, of the tractions above the judged stresses
-AXIS = np.array([0.1, 0.25, 0.48, 1.0, 2.0])  # depths over the contact radius
-OFF_AXIS = np.array([0.2, 0.5, 1.0])
+# Radius of the judged points over the contact radius, by depth over the contact radius: near the
+# surface below the edge, tractions that are constant on cells are inaccurate.
+DEPTHS = {0.1: 0.5, 0.2: np.inf, 0.5: np.inf, 1.0: np.inf, 2.0: np.inf}
 STIFFER = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.2)
 FILMED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=STIFFER),))
 
@@ -111,58 +110,22 @@ def _hertz_tractions(cells: int) -> tuple[Field, Field]:
     return p, np.stack([SLIDING * p, np.zeros_like(p)])
 
 
-@cache
-def _stress_section(sliding: bool) -> SubsurfaceField:
-    p, q = _hertz_tractions(CELLS)
-    depths = [float(d) for d in np.concatenate([AXIS, OFF_AXIS]) * A]
-    body = Body(material=STEEL)
-    return subsurface(body, hertz_grid(CELLS), p, q if sliding else None, depths).along_x()
-
-
-@cache
-def _axis_errors() -> Field:
-    """Compute the stress errors below the contact centre at five depths, from Hertz tractions on
-    cells.
-
-    The columns of the result (5, 3) are the errors of σ_zz and σ_xx under pressure, and of σ_xz
-    under pressure and shear [force/length²].
-    """
-    exact = axis_stress(AXIS * A, A, P0, NU)
-    still, sliding = (_stress_section(slides).below()[1][: len(AXIS)] for slides in (False, True))
-    shear = sliding_axis_shear(AXIS * A, A, SLIDING * P0)
-    return np.stack(
-        (still[:, ZZ] - exact.axial, still[:, XX] - exact.radial, sliding[:, XZ] - shear), axis=1
-    )
-
-
-def _off_axis_error() -> float:
-    field = _stress_section(False)
-    exact = huber_stress(field.x, OFF_AXIS[:, None] * A, A, P0, NU)
-    stress = field.stress[len(AXIS) :, ..., 0]
-    return _largest_over_peak((stress[:, ZZ] - exact.axial, stress[:, YY] - exact.hoop))
-
-
 def _sliding_stress_error() -> float:
     """Compute the largest stress error below a sliding Hertz contact, over the peak pressure [1].
 
     The tractions act on 256 × 256 cells. All six components are compared with Hamilton's solution
-    below every 16th cell along each side, at depths of 0.5 and 1 contact radii.
+    below every 16th cell along each side, within the radius of each depth.
     """
-    depths = np.array((0.5, 1.0)) * A
-    found = subsurface(
-        Body(material=STEEL), hertz_grid(CELLS), *_hertz_tractions(CELLS), depths.tolist()
-    )
+    errors = []
     some = slice(8, None, 16)
-    X, Y = (at.ravel() for at in np.meshgrid(found.x[some], found.y[some], indexing="ij"))
-    return worst(
-        *(
-            _largest_over_peak(
-                stress.reshape(6, -1)
-                - hamilton_stress(X, Y, np.full_like(X, depth), A, P0, SLIDING * P0, NU)
-            )
-            for depth, stress in zip(depths, found.stress[:, :, some, some], strict=True)
-        )
-    )
+    grid, tractions = hertz_grid(CELLS), _hertz_tractions(CELLS)
+    for depth, reach in DEPTHS.items():
+        found = subsurface(Body(material=STEEL), grid, *tractions, [depth * A])
+        x, y = np.meshgrid(found.x[some], found.y[some], indexing="ij")
+        exact = hamilton_stress(x, y, depth * A, A, P0, SLIDING * P0, NU)
+        error = found.stress[0][:, some, some] - exact
+        errors.append(_largest_over_peak(error[:, np.hypot(x, y) <= reach * A]))
+    return worst(*errors)
 
 
 @cache
@@ -208,8 +171,8 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the stress below a sliding ball and at the interface of a
     coating.
 
-    The stress from exact tractions on cells is compared with the closed forms of Huber and
-    Hamilton, and with continuity at the interface. All levels are equal.
+    The stress from exact tractions on cells is compared with the closed form of Hamilton, and with
+    continuity at the interface. All levels are equal.
     """
     required = "required of subsurface stress by the project's accuracy targets"
     closed, law = Required(1e-4, required), Required(1e-10, required)
@@ -218,42 +181,14 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         "subsurface_stress",
         "Stress below a sliding ball",
         "Hertz's pressure, sampled at the cell centres, and a shear of 0.3 times this pressure "
-        "act on a steel half-space. The stress on the axis, in the plane y = 0 and below the "
-        "whole contact is compared with Huber's and Hamilton's. The same tractions on a coated "
-        "body test the components that are continuous at the interface, the jump of the others, "
-        "and the tractions at the surface.",
+        "act on a steel half-space. The stress below the contact is compared with Hamilton's. "
+        "The same tractions on a coated body test the components that are continuous at the "
+        "interface, the jump of the others, and the tractions at the surface.",
         quantities=(
-            computed_error(
-                "hertz_axis",
-                "largest error of σ_zz and σ_xx on the axis, over p₀",
-                cells,
-                lambda: _largest_over_peak(_axis_errors()[:, :2]),
-                closed_form(0.0, "Huber 1904; Johnson 1985, ch. 3.4", 1.0),
-                closed,
-                "p₀",
-            ),
-            computed_error(
-                "sliding_axis",
-                "largest error of τ_xz on the axis, over p₀",
-                cells,
-                lambda: _largest_over_peak(_axis_errors()[:, 2]),
-                closed_form(0.0, "Hamilton 1983, on the axis", 1.0),
-                closed,
-                "p₀",
-            ),
-            computed_error(
-                "hertz_off_axis",
-                "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 a, over p₀",
-                cells,
-                _off_axis_error,
-                closed_form(0.0, "Huber 1904", 1.0),
-                closed,
-                "p₀",
-            ),
             computed_error(
                 "sliding_below",
                 "largest error of the six stress components below pressure and shear, at depths "
-                "of 0.5 a and a over the whole window, over p₀",
+                "of 0.2 a to 2 a over the whole window, at 0.1 a up to 0.5 a, over p₀",
                 cells,
                 _sliding_stress_error,
                 closed_form(0.0, "Hamilton 1983", 1.0),

@@ -71,51 +71,6 @@ def huber_stress(
     return AxisymmetricStress(p0 * radial, p0 * hoop, p0 * axial, p0 * shear)
 
 
-def axis_stress(
-    z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
-) -> AxisymmetricStress:
-    """Compute the stress on the axis of symmetry below a Hertz contact without shear.
-
-    Closed form by Huber 1904 and Johnson 1985, ch. 3.4.
-
-    z               depths >= 0 [length]
-    contact_radius  contact radius a > 0 [length]
-    peak_pressure   peak pressure p0 > 0 [force/length²]
-    poisson_ratio   ν of the half-space
-    """
-    _require_half_space(contact_radius, peak_pressure, poisson_ratio)
-    depth, arc = _depth(z, contact_radius)
-    axial = -peak_pressure / (1 + depth**2)
-    radial = -peak_pressure * (1 + poisson_ratio) * (1 - arc) - axial / 2
-    return AxisymmetricStress(radial, radial, axial, np.zeros_like(axial))
-
-
-def sliding_axis_shear(z: ArrayLike, contact_radius: float, peak_shear: float) -> Array:
-    """Compute the shear stress τ_xz on the axis below a Hertz contact in gross slip along x
-    [force/length²].
-
-    The shear traction on the body is q0 √(1-r²/a²) along +x (Hamilton 1983). Poisson's ratio has no
-    effect.
-
-    z               depths >= 0 [length]
-    contact_radius  contact radius a [length]
-    peak_shear      q0 = µ p0 at gross slip [force/length²]
-    """
-    depth, arc = _depth(z, contact_radius)
-    return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
-
-
-def _depth(z: ArrayLike, a: float) -> tuple[Array, Array]:
-    """Return the depth over the contact radius, d = z/a, and d arctan(1/d); ValueError for z < 0.
-
-    The second term occurs in the closed forms of the stress on the axis.
-    """
-    depth = np.asarray(z, dtype=float) / a
-    if not np.all(depth >= 0):
-        raise ValueError(f"depth down to {np.min(depth) * a!r}: the body occupies z >= 0")
-    return depth, depth * np.arctan2(1, depth)
-
-
 def _require_half_space(a: float, p0: float, nu: float) -> None:
     if not -1 < nu <= 0.5:
         raise ValueError(f"Poisson's ratio is {nu!r}, expected -1 < nu <= 0.5")

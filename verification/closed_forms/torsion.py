@@ -30,7 +30,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
-from scipy.special import ellipe, elliprd, j1
+from scipy.special import ellipe, elliprd
 
 from verification.closed_forms.quadrature import unit_gauss
 
@@ -349,49 +349,6 @@ class CoatedTorsion:
         [force/length].
         """
         return self._solve_fredholm[1]
-
-    def displacement(self, r: Array) -> Array:
-        """Compute the circumferential surface displacement at radii r of the stick disc [length].
-
-        The displacement must be twist times r, which checks the solution. The formula uses ∫₀^∞ sin
-        ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
-
-        r  radii between 0 and the stick radius (points,) [length]
-        """
-        k, weight = self._wavenumbers
-        v, weights = unit_gauss(self._quadrature_order)
-        inside = r[:, None] * np.sin(pi / 2 * v)
-        half_space = (
-            pi
-            / 2
-            * np.sum(weights * np.sin(pi / 2 * v) * self._solve_abel_transform(inside), axis=1)
-        )
-        layers = j1(np.outer(r, k)) @ (weight * self._spectrum)
-        return np.asarray((half_space + layers) / self.surface.torsional_modulus)
-
-    def _solve_abel_transform(self, s: Array) -> Array:
-        """Evaluate the Abel transform h of the shear at positions s in the stick disc
-        [force/length].
-
-        Between the nodes h follows from the integral equation.
-        """
-        k, weight = self._wavenumbers
-        G = self.surface.torsional_modulus
-        by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
-        return np.asarray(4 / pi * G * self.twist * s - 2 / pi * by_layers)
-
-    @cached_property
-    def _spectrum(self) -> Array:
-        """Effect (X - 1) q~ of the layers on the surface displacement, at the nodes in the
-        wavenumber [force].
-
-        X - 1 is the relative change of the torsional compliance by the layers, and q~ the Hankel
-        transform of the circumferential shear.
-        """
-        k, _ = self._wavenumbers
-        s, weights = self._quadrature_nodes
-        transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
-        return np.asarray(self.surface.excess(k) * transform)
 
     @cached_property
     def _solve_fredholm(self) -> tuple[float, Array]:

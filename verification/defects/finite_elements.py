@@ -175,13 +175,13 @@ FINITE_ELEMENTS = (
     Defect(
         "fe-penalty-soft",
         "The penalty is a tenth of the stated penalty.",
-        ("fem_penalty_hertz",),
+        ("fem_hertz",),
         replaces(Penalty, "stiffness")(lambda whole, self, *given: 0.1 * whole(self, *given)),
     ),
     Defect(
         "fe-penalty-not-augmented",
         "Augmentations have no effect.",
-        ("fem_penalty_hertz",),
+        ("fem_hertz",),
         replaces(increment._Increment, "next_pass")(lambda _, self, last: last),
     ),
 )

@@ -215,19 +215,19 @@ SURFACE_RESPONSE = (
     Defect(
         "kappa-for-chi",
         "Shear waves reflect at the interface by κ instead of χ.",
-        ("layered_reference", "torsion_coated"),
+        ("layered_reference", "torsion"),
         _kappa_for_chi,
     ),
     Defect(
         "plane-stress",
         "The substrate has Kolosov's constant of plane stress.",
-        ("layered_reference", "layered_identities"),
+        ("layered_reference",),
         _plane_stress,
     ),
     Defect(
         "substrate-ratio-in-layer",
         "Layers of a scene get the substrate's Poisson's ratio.",
-        ("coated_unlike_ratios",),
+        ("compliant_bond",),
         _substrate_ratio_in_layer,
     ),
     Defect(

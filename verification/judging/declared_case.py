@@ -37,6 +37,7 @@ from verification.judging.case import (
     Required,
     Run,
     SectionRun,
+    compare_runs,
     per_radius,
 )
 from verification.observed.ring_errors import central_pressure
@@ -47,7 +48,14 @@ from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_WORK,
     loop_energy,
 )
-from verification.problems.problem import OVER_PEAK, OVER_RADIUS, Problem, Reference, ShiftedGrid
+from verification.problems.problem import (
+    OVER_PEAK,
+    OVER_RADIUS,
+    Problem,
+    Reference,
+    ReferenceKind,
+    ShiftedGrid,
+)
 from verification.quantities import unit_of
 from verification.solver import Method
 
@@ -890,6 +898,29 @@ def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
         tuple(_finding(row, ladder) for row in rows if isinstance(row, Reported)),
         ladder.problem.equations,
     )
+
+
+def compared(
+    name: str,
+    meaning: str,
+    one: AnyRun,
+    other: AnyRun,
+    difference: Callable[[Any, Any], float],
+    allowed: float,
+    because: str,
+    source: str,
+    kind: ReferenceKind = ReferenceKind.IDENTITY,
+    uncertainty: float = 0.0,
+) -> Judged:
+    """Create two runs that must agree, and their judged difference (see `compare_runs`).
+
+    one, other  runs; the difference is relative to the second
+    """
+    labels = one.label, other.label
+    row = compare_runs(
+        name, meaning, labels, difference, allowed, because, source, kind, uncertainty
+    )
+    return Judged((one, other), (row,))
 
 
 def case(

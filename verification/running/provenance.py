@@ -24,10 +24,10 @@ from contact_scene.reading.description import Description
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = (
     *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
-    *("contact_errors", "contact_results", "verification"),
+    *("contact_errors", "contact_results", "verification", "slipstick"),
 )
-# It exports the challenges, on which the other modules do not depend.
-EXPORTS = "verification/__init__.py"
+# They export the challenges and the commands' functions, on which other modules do not depend.
+EXPORTS = ("verification/__init__.py", "slipstick/__init__.py")
 # Objects that `pkgutil.resolve_name` imports, such as the solvers in `contact_results.solvers`.
 RESOLVED = re.compile(r'"([\w.]+):\w+"')
 # A catalogue imports the modules of its package by name.
@@ -89,7 +89,7 @@ def closure(modules: Iterable[str]) -> set[str]:
         path = left.pop()
         if path not in found:
             found.add(path)
-            left += () if path == EXPORTS else _imported_files(path)
+            left += () if path in EXPORTS else _imported_files(path)
     return found
 
 

@@ -295,8 +295,8 @@ REMARKS = (
     "Defects are planted by replacing functions of the solvers in the worker process; nothing in "
     "the solvers knows of them.",
     "Three verdicts are what they are because a defect would pass otherwise: the slip in "
-    "cattaneo_mindlin, the case coated_unlike_ratios, and the tolerance of the approach in "
-    "fem_penalty_hertz. Each judges a law, none looks for a defect.",
+    "cattaneo_mindlin, the unlike ratios of compliant_bond, and the tolerance of the approach with "
+    "a penalty in fem_hertz. Each judges a law, none looks for a defect.",
 )
 
 

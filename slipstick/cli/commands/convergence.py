@@ -20,12 +20,12 @@ from slipstick.cli.options import (
     print_input_warnings,
 )
 from slipstick.cli.terminal import print_table
+from slipstick.convergence.levels import FEWEST_LEVELS, StudiedScene
+from slipstick.convergence.study import scene_study
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report.file_names import PAGE
 from verification.running.study import Settings
-from verification.studies.refinement.levels import FEWEST_LEVELS, StudiedScene
-from verification.studies.refinement.study import scene_study
 
 MAX_LEVELS = 10
 MOST_SECONDS = 60.0

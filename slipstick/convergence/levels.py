@@ -281,14 +281,7 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
 
 
 def _key_scalars(values: Values, *, line: bool) -> Iterator[tuple[str, str, float]]:
-    """Yield the main scalar results of a load step as (name, quantity, value).
-
-    A component of a vector has the name of its quantity with _x or _y. For a scalar, name and
-    quantity are equal, except for the names of a line contact.
-
-    values  computed values by quantity, at the end of a load step
-    line    True for a line contact
-    """
+    """Yield the main scalar results of a load step as (name, quantity, value)."""
     for stem, numbers in values.items():
         if stem in KEYS:
             names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)

@@ -8,6 +8,12 @@ from typing import TypeAlias
 
 from contact_scene.quantities.per_length import shown_name
 from contact_scene.reading.scene_file import read_accuracy
+from slipstick.convergence.levels import (
+    AccuracyLevel,
+    StudiedScene,
+    plan_of,
+)
+from slipstick.convergence.limits import Effect, Estimate, estimates
 from verification.exhibits.chart import (
     Chart,
     Curve,
@@ -33,12 +39,6 @@ from verification.running.study import (
     Study,
     StudyCase,
 )
-from verification.studies.refinement.levels import (
-    AccuracyLevel,
-    StudiedScene,
-    plan_of,
-)
-from verification.studies.refinement.limits import Effect, Estimate, estimates
 
 # Names of the curves of the picture, and the records of their levels: the run, the kinds of
 # refinement, and the setting of a requested accuracy.
@@ -263,10 +263,7 @@ def _order_table(of: Sequence[Estimate]) -> Table:
 
 
 def _level_table(levels: Levels, of: Sequence[Estimate]) -> Table:
-    """Build the table of all levels: work, and values.
-
-    A level that the solver refused has the message of the solver instead.
-    """
+    """Build the table of all levels: work, and values or the message of a solver that refused."""
 
     def value(one: Estimate) -> Callable[[tuple[str, CaseRecord]], str]:
         return lambda row: (

@@ -11,13 +11,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, sqrt
 
 from contact_errors.error_formula import BELIEVED, ORDERS, SPREADS
-from verification.convergence.observed_order import (
-    ObservedOrder,
-    order_text,
-    refined_value,
-)
-from verification.running.study import CaseRecord, Row
-from verification.studies.refinement.levels import (
+from slipstick.convergence.levels import (
     FEWEST_LEVELS,
     FLOOR,
     LARGEST,
@@ -28,6 +22,12 @@ from verification.studies.refinement.levels import (
     Ladder,
     Plan,
 )
+from verification.convergence.observed_order import (
+    ObservedOrder,
+    order_text,
+    refined_value,
+)
+from verification.running.study import CaseRecord, Row
 
 NEAR = 3.0  # levels up to this ratio of sizes bound the error without a common power
 COVERAGE = 2.0
@@ -236,12 +236,9 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
 
 
 def _scatter(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
-    """Compute the error of the finest level if the errors are C h^p with another C on each level.
-
-    A common power of some levels is a coincidence then. The factor is that of the stated errors of
-    runs, see `contact_errors.error_formula`. The largest spread counts, because the errors of half
-    widths have one sign: their mean square is more than that of their differences.
-    """
+    """Compute the error of the finest level if each level has another C in the error C h^p."""
+    # A common power of some levels is a coincidence then. The largest spread counts, because the
+    # errors of half widths have one sign: their mean square is more than that of their differences.
     return SPREADS * max(
         abs(value - values[-1]) / sqrt((size / sizes[-1]) ** (2 * order) + 1)
         for size, value in zip(sizes[:-1], values[:-1], strict=True)
@@ -251,13 +248,8 @@ def _scatter(sizes: Sequence[float], values: Sequence[float], order: float) -> f
 def _reach_of_order(
     sizes: Sequence[float], values: Sequence[float], observed: ObservedOrder
 ) -> float:
-    """Compute the largest change of a limit by a convergence order within its 95 % interval.
-
-    An error that the study does not refine changes the observed order, and with it the limit.
-
-    sizes, values  size and result of each level
-    observed       observed convergence order
-    """
+    """Compute the largest change of a limit by a convergence order within its 95 % interval."""
+    # An error that the study does not refine changes the observed order, and with it the limit.
     low, limit, high = (
         refined_value(sizes, values, max(LEAST_ORDER, observed.order + way)).limit
         for way in (-observed.half_width, 0.0, observed.half_width)
