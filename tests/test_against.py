@@ -37,7 +37,7 @@ increments = 24
 tangential_shift = ["1.5 um", 0]
 increments = 24
 [semi_analytical]
-cells = [32, 32]
+cells = [20, 20]
 window = ["1.2 mm", "1.2 mm"]
 """
 
@@ -171,12 +171,12 @@ def test_the_shear_of_a_line_contact_has_an_error_without_a_reference_length(
 # ---- Loops of line contacts, whose forces are per length.
 
 PUSHES = "".join(
-    f"[[loading]]\ntangential_force = ['{T} N/mm', 0]\nincrements = 6\n" for T in (-50, 50)
+    f"[[loading]]\ntangential_force = ['{T} N/mm', 0]\nincrements = 4\n" for T in (-50, 50)
 )
 LINE_LOOP = (
     LINE.replace("[body]", 'reference_length = "20 mm"\n[body]')
     .replace("[semi_analytical]", f"{PUSHES}[semi_analytical]")
-    .replace("cells = 64", "cells = 32")
+    .replace("cells = 64", "cells = 16")
 )
 
 
@@ -293,7 +293,7 @@ def test_a_fit_does_not_depend_on_the_unit(place: Path) -> None:
 
 
 def test_friction_is_identified_from_a_loop(place: Path) -> None:
-    small = SCENE.replace("increments = 24", "increments = 8").replace("[32, 32]", "[16, 16]")
+    small = SCENE.replace("increments = 24", "increments = 4").replace("[20, 20]", "[12, 12]")
     (place / "small.toml").write_text(small, encoding="utf-8")
     outcome("run", "small.toml", "-o", "small", "--figures", "none", "--no-error", cwd=place)
     actuator, _, force = loop(place, "small")

@@ -17,7 +17,6 @@ from contact_scene import (
     Cone,
     CoulombFriction,
     Cylinder,
-    FiniteElementDiscretisation,
     FlatPunch,
     InterfaceStrength,
     IsotropicMaterial,
@@ -45,11 +44,7 @@ W = 50.0
 SEARCHED = 1e-8
 YIELD = 1e9
 TENSILE = 0.3e9
-COARSE: dict[str, Any] = {
-    "radial": None,
-    "semi-analytical": SurfaceDiscretisation(cells=(64, 64)),
-    "fem-complementarity": FiniteElementDiscretisation(elements_per_radius=16),
-}
+COARSE = SurfaceDiscretisation(cells=(24, 24))
 
 
 def steel(nu: float = 0.3, **strengths: float) -> IsotropicMaterial:
@@ -93,24 +88,18 @@ def error_of(one: Any) -> float:
     return float(one.error.error)
 
 
-@pytest.mark.parametrize(
-    ("solver", "nu"),
-    [
-        *[("radial", 0.0), ("radial", 0.3), ("radial", 0.5)],
-        *[("semi-analytical", 0.3), ("fem-complementarity", 0.3)],
-    ],
-)
-def test_ball_yields_below_and_cracks_at_the_edge(solver: str, nu: float) -> None:
+@pytest.mark.parametrize("nu", [0.3, 0.5])
+def test_ball_yields_below_and_cracks_at_the_edge(nu: float) -> None:
     """p0 = 1.60 Y at 0.48 a for nu = 0.3 (Johnson 1985), and tension (1 - 2nu)/3 p0 (Huber)."""
     body = Body(material=steel(nu, yield_strength=YIELD, tensile_strength=TENSILE))
-    found = critical_loads(pressed(body, nu=nu), solver, COARSE[solver])
+    found = critical_loads(pressed(body, nu=nu), "radial")
     limits, (constant, depth) = by_measure(found), yield_on_axis(nu)
     first = limits["von_mises"]
     wrong = first.load_factor - load_at(YIELD / constant, nu)
     assert abs(wrong) <= error_of(first) + SEARCHED * first.load_factor
     assert first.normal_force == pytest.approx(W * first.load_factor, rel=1e-3)
     radius = hertz(first.normal_force, nu).contact_radius
-    assert first.place[2] == pytest.approx(depth * radius, rel=1e-4 if solver == "radial" else 0.1)
+    assert first.place[2] == pytest.approx(depth * radius, rel=1e-4)
     assert len(found.load_factors) <= 4
     crack = limits["max_principal"]
     if nu == 0.5:  # no tension at the edge: (1 - 2nu)/3 = 0
@@ -146,7 +135,7 @@ def test_strong_friction_moves_the_onset_of_yield_to_the_surface() -> None:
     body = Body(material=steel(yield_strength=YIELD, tensile_strength=YIELD))
     slides = LoadStep(tangential_force=(friction * W, 0.0), increments=1)
     scene = pressed(body, slides, friction=CoulombFriction(coefficient=friction))
-    limits = by_measure(critical_loads(scene, discretisation=SurfaceDiscretisation(cells=(48, 48))))
+    limits = by_measure(critical_loads(scene, discretisation=COARSE))
     # At the trailing edge sigma_xx is the largest tension, and sigma_yy is -(1 - 2nu)/3 p0 of the
     # pressure and (3 pi/8) nu mu p0 of the shear.
     tension = trailing_edge_tension(1.0, friction, 0.3)
@@ -165,7 +154,10 @@ def test_layer_of_the_base_material_keeps_its_strengths_and_its_interface() -> N
         thickness=depth, material=steel(), interface_strength=InterfaceStrength(shear=bond)
     )
     scene = pressed(Body(material=steel(yield_strength=YIELD), layers=(layer,)))
-    found = {(one.region, one.measure): one for one in critical_loads(scene, "radial").limits}
+    found = {
+        (one.region, one.measure): one
+        for one in critical_loads(scene, discretisation=COARSE).limits
+    }
 
     def shear(contact: PointContact) -> float:
         r = np.linspace(0, 2, 4001) * contact.contact_radius
@@ -284,6 +276,3 @@ def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
     assert (one.load_factor, one.below) == (None, 1.0)
     assert one.reason is not None
     assert "the contact reaches the edge" in one.reason
-
-
-# ---- command

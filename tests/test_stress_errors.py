@@ -65,9 +65,7 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     ("thickness", "modulus", "count", "widest"),
     [
         (0.04, 600e9, 24, 0.1),
-        (0.04, 600e9, 64, 0.05),
         (0.4, 420e9, 48, 0.05),
-        (0.4, 420e9, 64, 0.05),
     ],
 )
 def test_the_tension_at_a_coating_pressed_without_friction_is_known(
@@ -170,7 +168,7 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
         assert error.status is expected, error.reason
 
 
-@pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
+@pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
 def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
     """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
     slid = {"tangential_shift": (1e-4, 0.0)}
