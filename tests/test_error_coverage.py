@@ -1,8 +1,9 @@
-"""Tests of the study of stated errors: its counts of covered, tight and marked errors."""
+"""Tests of the study of stated errors: its counts, and its detection of a wrong error estimate."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pytest
 
@@ -11,12 +12,19 @@ from contact_scene.quantities.stated_error import (
     StatedError,
 )
 from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import APPROACH, Truth
 from verification.problems.problem import Reference, ReferenceKind
-from verification.running.study import Row, Settings
+from verification.running.study import CaseRecord, Row, Settings
 from verification.studies.error_coverage import (
+    ASKED,
+    ENOUGH,
+    REQUESTS,
+    TRUE,
     Coverage,
     Share,
+    cases,
+    conclude,
     coverage_row,
 )
 
@@ -76,3 +84,88 @@ def test_each_number_is_counted_once(name: str) -> None:
         for share in ("covered", "tight", "wide", "apart", "false_marks")
     )
     assert coverage([one]) == Coverage(APPROACH, *shares, int("undecided" in inside), 0)
+
+
+def test_numbers_with_a_reference_are_counted_apart() -> None:
+    """Of the 200 numbers, the errors of 100 have a part by the tolerance."""
+    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 1e-9))
+    parts: list[Mapping[Any, float]] = [{"cells": 1e-3}, {"cells": 1e-3, "tolerance": 1e-4}]
+    rows = [
+        coverage_row(truth, 2 + wrong, StatedError(error=1e-3, parts=one, status="estimated"))
+        for one, wrong in zip(parts, (1e-3, 2e-3), strict=True)
+    ] * 100
+    statements = conclude(SETTINGS, records(rows)).statements
+    (apart,) = (one for one in statements if one.claim.startswith("numbers by coarse solves"))
+    assert apart.about.counters["numbers"] == 100
+    assert apart.about.measures["covered"] == 0
+
+
+def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, CaseRecord]:
+    """Records of one scene, and of requests by true error over request."""
+    scene, *others = cases(SETTINGS)
+    requests = others[-REQUESTS:]
+    made = {scene.name: CaseRecord(parameters={"family": "balls"}, parts=tuple(rows))}
+    for case, ratio in zip(requests, ratios, strict=False):
+        outcome = {"outcome": "met" if ratio else "stopped"}
+        made[case.name] = CaseRecord(measures={ASKED: 1e-2, TRUE: 1e-2 * ratio}, words=outcome)
+    return made
+
+
+@pytest.mark.parametrize(
+    ("rows", "covered", "width"),
+    [
+        ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS, Status.PASS),
+        ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE, Status.INCONCLUSIVE),
+        ([row(1e-3, 2e-3)] * 90 + [row(1e-3, 5e-4)] * 10, Status.FAIL, Status.PASS),
+        ([row(1e-3, 2e-3)] * 74 + [row(1e-3, 2e-2)] * 26, Status.PASS, Status.FAIL),
+        ([row(1e-3, 2e-3)] * 91 + [row(1e-3, 4e-2)] * 9, Status.PASS, Status.FAIL),
+        ([row(1e-3, 2e-3)] * ENOUGH + [MARKED] * 3, Status.PASS, Status.FAIL),
+    ],
+    ids=["good", "too few", "too small", "too large", "far too large", "falsely marked"],
+)
+def test_all_numbers_kinds_and_families_are_judged(
+    rows: list[Row], covered: Status, width: Status
+) -> None:
+    found = conclude(SETTINGS, records(rows)).statements
+    assert found
+    expected_of = {"all numbers: tight": width} | dict.fromkeys(
+        ("all numbers: covered", "approach", "family balls"), covered
+    )
+    for claim, expected in expected_of.items():
+        (statement,) = (s for s in found if s.claim.startswith(claim))
+        assert statement.outcome is expected
+
+
+@pytest.mark.parametrize(
+    ("missed", "of", "outcome"),
+    [
+        (7, 100, Status.PASS),
+        (9, 100, Status.FAIL),
+        (3, 50, Status.INCONCLUSIVE),
+        (6, 50, Status.FAIL),
+        (21, 400, Status.PASS),
+        (22, 400, Status.FAIL),
+    ],
+)
+def test_a_family_fails_if_its_coverage_is_significantly_below_that_of_all(
+    missed: int, of: int, outcome: Status
+) -> None:
+    """By the binomial distribution, P(X <= of - missed) < 0.01 at a true fraction of 0.97."""
+    rows = [row(1e-3, 2e-3)] * (of - missed) + [row(1e-3, 5e-4)] * missed
+    (family,) = (s for s in conclude(SETTINGS, records(rows)).statements if "family" in s.claim)
+    assert family.outcome is outcome
+
+
+@pytest.mark.parametrize(
+    ("ratios", "outcome"),
+    [
+        ([0.5] * 58 + [1.5] * 2, Status.PASS),
+        ([0.5] * 57 + [1.5] * 3, Status.FAIL),
+        ([0.5] * 59 + [2.5], Status.FAIL),
+        ([0.5] * 28 + [1.5] * 2 + [0.0] * 30, Status.FAIL),
+        ([0.5] * 59, Status.INCONCLUSIVE),
+    ],
+)
+def test_requests_are_judged_by_true_errors(ratios: list[float], outcome: Status) -> None:
+    *_, statement = conclude(SETTINGS, records([], ratios)).statements
+    assert statement.outcome is outcome
