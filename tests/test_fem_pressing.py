@@ -16,11 +16,15 @@ from fem_scenes import elements, end
 
 from contact_scene import (
     Body,
+    IsotropicMaterial,
     Layer,
+    Paraboloid,
     Scene,
 )
-from fem_reference import Increment, Method, Result, plan, solve
+from fem_reference import Increment, Method, Path, Result, plan, solve
 from fem_reference.expected_radius import expected_radius
+
+SMOOTH = scene(PRESS, friction=None)
 
 
 @pytest.mark.parametrize("method", Method)
@@ -76,6 +80,45 @@ def test_overlap_is_reported() -> None:
     assert springs.overlap == pytest.approx(springs.peak_pressure / stiffness, rel=1e-2)
     assert augmented.overlap < 0.1 * springs.overlap
     assert np.all(springs.gap >= 0)
+
+
+TWIST = {"torque": 0.01}
+FILM = Layer(thickness=A, material=steel())
+HALF = IsotropicMaterial(young_modulus=1e9, poisson_ratio=0.5)
+
+
+def coated_alike(*loading: dict) -> Scene:
+    coating = {"material": steel(young_modulus=210e9), "layers": (FILM,)}
+    indenter = Paraboloid(radius=0.018, **coating)
+    return scene(*loading, indenter=indenter, body=Body(**coating))
+
+
+PATHS: dict[str, tuple[Scene, Path]] = {
+    "frictionless": (SMOOTH, Path.PRESSING),
+    "rigid": (scene(PRESS, indenter=RIGID_BALL), Path.PRESSING_WITH_FRICTION),
+    "incompressible": (scene(PRESS, indenter=RIGID_BALL, body=HALF), Path.PRESSING),
+    "pushed": (scene(PRESS, push(0.5)), Path.SHEARING),
+    "coupled": (scene(PRESS, push(0.5), indenter=RIGID_BALL), Path.HARMONICS),
+    "twisted": (scene(PRESS, TWIST), Path.TWISTING),
+    "coupled and twisted": (
+        scene(PRESS, TWIST, indenter=RIGID_BALL),
+        Path.TWISTING_WITH_FRICTION,
+    ),
+    "pushed and twisted": (scene(PRESS, push(0.3), TWIST), Path.WHOLE_CIRCLE),
+    "turning": (scene(PRESS, push(0.3), push(0, 0.3)), Path.WHOLE_CIRCLE),
+    "coupled and on one line": (
+        scene(PRESS, push(0.2, 0.1), push(0.4, 0.2), indenter=RIGID_BALL),
+        Path.HARMONICS,
+    ),
+    # A layer couples by itself, but not below its mirror image.
+    "coated alike": (coated_alike(PRESS), Path.PRESSING),
+    "coated alike, pushed": (coated_alike(PRESS, push(0.5)), Path.SHEARING),
+}
+
+
+@pytest.mark.parametrize(("asked", "path"), PATHS.values(), ids=PATHS)
+def test_path_follows_the_scene(asked: Scene, path: Path) -> None:
+    assert plan(asked).path is path
 
 
 @pytest.mark.parametrize(

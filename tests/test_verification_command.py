@@ -45,7 +45,7 @@ def test_residual_above_tolerance_fails() -> None:
 
 
 def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
-    case = near_sliding(cells=32)
+    case = near_sliding(cells=64)
 
     def solve(run: Any) -> Any:
         if run is case.runs[0]:
