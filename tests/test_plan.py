@@ -4,14 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide
+from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
 from coupled_scenes import bulk, coated
 from coupled_scenes import scene as coupled_scene
 
 import fem_reference
 import radial
+from contact_scene import Body, Layer
+from contact_scene.body_pair import contact_modulus, outermost_beta
 from contact_scene.stepping.load_stepping import fractions
-from semi_analytical import plan
+from semi_analytical import Coupling, all_effects, plan
+from semi_analytical.operator.domain import WINDOW
+from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
 LEAST = 1e-3
 
@@ -45,6 +49,21 @@ def test_increments_follow_small_loads_by_the_contact_radius(least, order):
         assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
 
 
+def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
+    film, inner = steel(0.2, 3e11), steel(0.45, 3e10)
+    layers = tuple(Layer(thickness=1e-3, material=one) for one in (film, inner))
+    bare, alone, layered = (
+        scene(PRESS, indenter=RIGID_BALL).model_copy(update={"body": body})
+        for body in (
+            Body(material=steel()),
+            Body(material=film),
+            Body(material=steel(), layers=layers),
+        )
+    )
+    for of in (contact_modulus, outermost_beta):
+        assert of(layered) == of(alone) != of(bare)
+
+
 DEFAULT = 1e-2
 
 
@@ -71,3 +90,15 @@ def test_more_accuracy_takes_more_increments(described):
     fine, coarse = counts(described, 1e-3), counts(described, 1e-1)
     assert all(f >= c for f, c in zip(fine, coarse, strict=True))
     assert sum(fine) > sum(coarse)
+
+
+def test_forcing_says_what_it_forces():
+    decided = plan(scene(PRESS, friction=None))
+    forced = all_effects(decided)
+    assert forced.coupling is Coupling.FULL
+    assert forced.shear
+    assert forced.increments == decided.increments
+    changed = [e for e, old in zip(forced.effects, decided.effects, strict=True) if e != old]
+    assert {e.name for e in changed} == {*COMPUTED, MIRROR_PLANES}
+    assert all(e.on and "forced on" in e.why for e in changed if e.name in COMPUTED)
+    assert forced.symmetry == WINDOW
