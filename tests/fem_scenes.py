@@ -1,12 +1,9 @@
 """Discretisations and short solve functions for tests of the finite-element solver."""
 
-import pytest
-
 from contact_scene import FiniteElementDiscretisation, Scene
 from fem_reference import Increment, Method, Result, solve
 
 EXACT = Method.COMPLEMENTARITY
-both_laws = pytest.mark.parametrize("law", Method)
 
 
 def elements(per_radius: int = 16, **more) -> FiniteElementDiscretisation:

@@ -37,7 +37,7 @@ increments = 24
 tangential_shift = ["1.5 um", 0]
 increments = 24
 [semi_analytical]
-cells = [32, 32]
+cells = [20, 20]
 window = ["1.2 mm", "1.2 mm"]
 """
 
@@ -176,7 +176,7 @@ PUSHES = "".join(
 LINE_LOOP = (
     LINE.replace("[body]", 'reference_length = "20 mm"\n[body]')
     .replace("[semi_analytical]", f"{PUSHES}[semi_analytical]")
-    .replace("cells = 64", "cells = 32")
+    .replace("cells = 64", "cells = 16")
 )
 
 
@@ -227,15 +227,11 @@ def test_a_loop_of_forces_per_length_is_compared_with_a_line_contact(
     assert numbers["centre_of_force"]["measured"] == pytest.approx(0, abs=1e-3)
 
 
-def test_inputs_of_a_line_contact_are_fitted_and_uncertain(line_place: Path) -> None:
+def test_an_input_of_a_line_contact_is_uncertain(line_place: Path) -> None:
     """The shift grows by 2T/πE* for each unit of the logarithm of the reference length."""
     measured, key = line_loop(line_place), "indenter.reference_length"
     per_logarithm = 2 * 50e3 / (np.pi * 210e9 / 0.91 / 2)
     shift = np.max(column(line_place / "line/increments.csv", "tangential_shift_x [m]", ("4",)))
-    fitted = against(line_place, measured, "line.toml", "--fit", f"{key}=21 mm")
-    # A force 3 % too small at equal shifts has the slope of a shift that is too large.
-    length = 20 * np.exp((1 / 0.97 - 1) * shift / per_logarithm)
-    assert fitted["fitted"][0]["value"] == pytest.approx(length, rel=1e-3)
     uncertain = against(line_place, measured, "line.toml", "--inputs", f"{key}=20±0.5 mm")
     slope = uncertain["numbers"]["slope"]
     by_length = 2 * 0.5 / 20 * per_logarithm / shift * slope["computed"]
@@ -290,16 +286,6 @@ def test_a_fit_does_not_depend_on_the_unit(place: Path) -> None:
     ]
     assert found[0]["value"] == pytest.approx(1.1, rel=2e-4)  # between the rings
     assert found[1]["value"] == pytest.approx(1000 * found[0]["value"], rel=1e-9)
-
-
-def test_friction_is_identified_from_a_loop(place: Path) -> None:
-    small = SCENE.replace("increments = 24", "increments = 8").replace("[32, 32]", "[16, 16]")
-    (place / "small.toml").write_text(small, encoding="utf-8")
-    outcome("run", "small.toml", "-o", "small", "--figures", "none", "--no-error", cwd=place)
-    actuator, _, force = loop(place, "small")
-    measured = table(place / "own.csv", **{"actuator_shift [m]": actuator, "T [N]": force})
-    (found,) = against(place, measured, "small.toml", "--fit", "friction.coefficient=.12")["fitted"]
-    assert found["value"] == pytest.approx(0.1, abs=1e-5)
 
 
 def test_a_difference_has_its_validation_uncertainty(place: Path) -> None:

@@ -19,7 +19,7 @@ from command import slipstick
 from contact_scene import Body, load_scene
 from verification import Answer, Field, Solver, judge
 from verification.challenge.cases import challenges
-from verification.challenge.files import read_answers, toml_text
+from verification.challenge.files import toml_text
 from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import Challenge, Grade, Patch, RoundTable
 from verification.challenge.solver_process import Posed
@@ -143,49 +143,6 @@ def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
     assert statuses(Answer(h, fields={key: short}))[told] is Status.FAIL
 
 
-# Property, errors from coarse to fine, claimed uncertainty and order, status of the property.
-ON_LEVELS: list[tuple[str, list[float], float | None, float | None, Status | None]] = [
-    ("stalls", [9e-4 + 1e-6 / 2**n for n in range(4)], None, None, Status.FAIL),
-    ("stalls", [9e-4 / 2**n for n in range(4)], None, None, None),
-    ("own uncertainty", [5e-4, 3e-4, 2e-4], 0.25, None, Status.INCONCLUSIVE),
-    ("own uncertainty", [8e-3, 3e-4, 2e-4], 2e-2, None, Status.PASS),
-    ("own uncertainty", [5e-4, 3e-4, 2e-4], 4e-4, None, Status.PASS),
-    ("own uncertainty", [5e-4, 3e-4, 2e-4], 1e-5, None, Status.FAIL),
-    ("order", [1e-4, 8e-4, 5e-5], None, 2.0, Status.INCONCLUSIVE),
-    *(
-        ("order", [8e-4 * (1 + 1e-3 * (-1) ** n) / 2**n for n in range(4)], None, order, status)
-        for order, status in ((1.0, Status.PASS), (2.0, Status.FAIL))
-    ),
-]
-
-
-@pytest.mark.parametrize(("name", "errors", "u", "order", "status"), ON_LEVELS)
-def test_levels_are_held_to_what_is_claimed(
-    name: str, errors: list[float], u: float | None, order: float | None, status: Status | None
-) -> None:
-    def value(error: float) -> Any:
-        found = HERTZ.approach * (1 + error)
-        return found if u is None else (found, u * HERTZ.approach)
-
-    sizes = [8e-5 / 2**n for n in range(len(errors))]
-    answers = [Answer(h, {("approach", 1): value(e)}) for h, e in zip(sizes, errors, strict=True)]
-    who = Solver("stranger", claimed_orders={"approach": order} if order else {})
-    assert statuses(*answers, solver=who).get(f"approach: {name}") is status
-
-
-def test_a_slip_of_sign_or_unit_is_named() -> None:
-    expected = "expected: approach of points far from the contact in both bodies; positive"
-    for factor, off, words in (
-        (-1.0, 0.0, f"with the sign reversed it meets class A; {expected}"),
-        (-1.0, 5e-4, "with the sign reversed it meets class B; "),
-        (-1.0, 5e-3, "with the sign reversed it meets class C; "),
-        (1e3, 0.0, "times 1e-3 it meets class A"),
-        (0.5, 0.0, "doubled it meets class A"),
-    ):
-        answer = Answer(1e-5, {("approach", 1): factor * (1 + off) * HERTZ.approach})
-        assert words in judged(POINT, Solver("s"), (answer,)).rows[0].because
-
-
 @pytest.mark.parametrize(
     ("part", "grade", "status"),
     [
@@ -225,17 +182,6 @@ def filled(tmp_path: Path) -> Path:
     content["levels"] = [level | {"h": 4.5e-6, "unknowns": 100, "seconds": 0.1}]
     file.write_text(json.dumps(content))
     return folder
-
-
-def test_filled_files_pass_and_their_sheet_is_escaped(
-    filled: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    page = tmp_path / "sheet.html"
-    assert slipstick("judge", filled, "--page", page, "--class", "A", "--strict") == 0
-    assert "hertz_point | stranger <b> | class A | 2 pass, 0 fail" in capsys.readouterr().out
-    assert "stranger <b>" not in page.read_text()
-    badge = json.loads((tmp_path / "badge.json").read_text())
-    assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
 
 
 def test_an_export_that_is_killed_leaves_no_part_that_looks_whole(tmp_path: Path) -> None:
@@ -313,31 +259,6 @@ def test_answers_in_a_file_are_refused_by_name(
     file.write_text(text)
     assert slipstick("judge", filled) == 2
     assert said in " ".join(capsys.readouterr().err.split())
-
-
-def test_fields_and_numbers_at_points_are_read_from_a_file(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Their errors are those of the same answer as Python objects."""
-    for challenge in (challenges()["sliding_stress"], challenges()["cattaneo_mindlin"]):
-        folder = tmp_path / challenge.name
-        assert slipstick("challenge", "export", challenge.name, "-o", folder) == 0
-        file, answer = folder / "answers.json", answered(challenge, nothing)
-        content = json.loads(file.read_text())
-        numbers = {**answer.scalars, **answer.points}
-        fields = [
-            {"quantity": q, "load_step": s, **{n: v.tolist() for n, v in vars(field).items()}}
-            for (q, s), field in answer.fields.items()
-        ]
-        for one in content["levels"][0]["numbers"]:
-            one["value"] = np.asarray(numbers[one["quantity"], one["load_step"]]).tolist()
-        content["solver"]["name"] = "file"
-        content["levels"][0] |= {"h": answer.h, "fields": fields}
-        file.write_text(json.dumps(content))
-        assert read_answers(folder)[2][0].fields.keys() == answer.fields.keys()
-        assert slipstick("judge", folder, "--strict") == 0
-        direct = judged(challenge, Solver("file"), [answer]).line
-        assert direct in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -90,13 +90,13 @@ CASES = {
 }
 
 
-def moves_edge(body: str, solver: str, name: str) -> bool:
-    """Rings that follow the normal load have a moving edge, and no tangent."""
-    names, steps, _ = CASES[name]
-    return solver == "radial" and names == PRESSED and (body == "coated" or len(steps) > 1)
-
-
-EVERY = [case for case in product(BODIES, SOLVERS, CASES) if not moves_edge(*case)]
+# Rings that follow the normal load have a moving edge, and no tangent.
+ON_RINGS = ("alike", "radial")
+EVERY = [
+    *product(BODIES, SOLVERS[:2], CASES),
+    *((*ON_RINGS, name) for name in CASES if name != "normal force after a push"),
+    ("coated", "radial", "tangential force"),
+]
 
 
 @pytest.mark.parametrize(("body", "solver", "name"), EVERY)

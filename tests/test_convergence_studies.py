@@ -9,21 +9,14 @@ import numpy as np
 import pytest
 
 import radial
-from contact_errors.error_formula import values_of
 from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
-from slipstick import solve
-from slipstick.cli.commands.convergence import SETTINGS
 from slipstick.convergence.levels import StudiedScene, plan_of
 from slipstick.convergence.limits import Estimate, estimates
-from slipstick.convergence.study import scene_study
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import PointContact, tangential_modulus
-from verification.closed_forms.line_contact import CylinderContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
-from verification.judging.outcome import Status
-from verification.references import load_reference
 
 R = 18e-3
 W = 1e3
@@ -56,16 +49,6 @@ def text(shape: str, indenter: str, body: str, *steps: str, more: str = "") -> s
 def coating(ratio: float, thickness: float) -> str:
     modulus = f"young_modulus = {ratio * 210e9}, poisson_ratio = 0.3"
     return f"\n[[body.layers]]\nthickness = {thickness}\nmaterial = {{ {modulus} }}"
-
-
-def spence(nu: float, mu: float) -> Mapping[str, float]:
-    rows = load_reference("frictional_indentation_homogeneous")["rows"]
-    (row,) = (r for r in rows if (r["nu"], r["mu"]) == (nu, mu))
-    return {
-        "approach": row["delta_over_deltaH"] * HERTZ.approach,
-        "contact_radius": row["a_over_aH"] * A,
-        "stick_radius": row["c_over_a"] * row["a_over_aH"] * A,
-    }
 
 
 def pushed(part: float) -> PartialSlip:
@@ -129,7 +112,6 @@ LOOP = [
     f'tangential_force = ["{force} N", 0]\nincrements = {count}'
     for force, count in ((90, 6), (-90, 12), (90, 12))
 ]
-CATTANEO = text(BALL, ALIKE, ALIKE, 'tangential_force = ["60 N", 0]', more=FRICTION)
 ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
@@ -176,7 +158,6 @@ SCENES = {
         {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius},
         2e-3,
     ),
-    "frictional indentation": Scene(INDENTED, spence(0.3, 0.3), 5e-5),
 }
 
 
@@ -210,29 +191,6 @@ def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) ->
     assert first == (4, 4)
 
 
-@pytest.mark.parametrize("cells", [64, 128, 256])
-def test_strips_of_a_line_contact_are_refined(cells: int, tmp_path: Path) -> None:
-    """Limits cover Hertz, although errors scatter with the place of the edge within a strip."""
-    shape = BALL.replace("paraboloid", "cylinder")
-    pressed = text(shape, STEEL, STEEL).replace("1 kN", "1 kN/mm")
-    studied = StudiedScene(read(f"{pressed}[semi_analytical]\ncells = {cells}", tmp_path), 1, CELLS)
-    study = scene_study(studied, None, "half_width 1%", 1.0)
-    cases = [
-        case for case in study.cases(SETTINGS) if not case.name.startswith(f"{CELLS}-accuracy")
-    ]
-    conclusion = study.conclude(SETTINGS, {case.name: case.compute() for case in cases})
-    (judged,) = conclusion.statements
-    assert (judged.claim, judged.outcome) == ("required accuracy of the half width", Status.PASS)
-    rows = {row.parameters["quantity"]: row.measures for row in conclusion.rows}
-    exact = CylinderContact(1e6, 18e-3, 210e9 / 0.91 / 2, 1.0)
-    for name, value in (
-        ("half_width", exact.contact_radius),
-        ("peak_pressure", exact.peak_pressure),
-    ):
-        assert rows[name]["limit"] == pytest.approx(value, abs=rows[name]["uncertainty"])
-        assert rows[name]["uncertainty"] < 0.5 / cells * value
-
-
 @pytest.mark.parametrize("shape", ["paraboloid", "cylinder"])
 def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) -> None:
     force = "1 kN" if shape == "paraboloid" else "1 kN/mm"
@@ -243,14 +201,3 @@ def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) 
     sizes, levels = zip(*[x for x in ladder.levels.items() if not x[1].is_run], strict=True)
     boxes = np.array([level.fineness.space.box for level in levels])
     np.testing.assert_allclose(boxes[0] / boxes, (np.array(sizes) / sizes[0]) ** ladder.power)
-
-
-@pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
-def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
-    contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
-    level = plan_of(StudiedScene(contents, 2, solver), None).run.compute()
-    end = values_of(solve(contents, solver))[-1]
-    assert level.parts
-    for part in level.parts:
-        name, of = part.parameters["quantity"], part.parameters["of"]
-        assert level.measures[name] in np.atleast_1d(end[of])

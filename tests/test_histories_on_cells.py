@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 from contact_scenes import (
-    APPROACH,
     INDENTERS,
-    LIMIT,
     LOAD,
     MU,
     PRESS,
@@ -17,7 +15,7 @@ from contact_scenes import (
 )
 
 from contact_scene.quantities.summary import ContactStatus
-from semi_analytical import ContactAtWindowEdge, GrossSliding, NotConverged, solve
+from semi_analytical import GrossSliding, NotConverged, solve
 from semi_analytical.increments import stick_slip
 
 TOLERANCE = 1e-8
@@ -72,30 +70,6 @@ def test_first_loading_is_uniform_in_contact_radius(shape, exponent):
     found = [i.normal_force for i in increments(pressing, indenter=INDENTERS[shape], friction=None)]
     expected = 0.3 * LOAD * (np.arange(1, 5) / 4) ** exponent
     np.testing.assert_allclose(found, expected, rtol=1e-14)
-
-
-def test_an_approach_is_held_as_an_approach():
-    ends = increments({"approach": APPROACH}, push(0.3))
-    assert ends[1].approach == ends[0].approach == APPROACH
-    assert ends[1].residuals.normal_equilibrium is None
-
-
-def test_contact_that_is_left_and_found_again_has_no_shear_left_over():
-    """Cells outside the contact carry nothing; coming back they remember where they met."""
-    ends = increments(
-        {**PRESS, **push(0.5, increments=3)},
-        {"normal_force": 0.1 * LOAD, **push(0, increments=3)},
-        {**PRESS, "increments": 3},
-    )
-    for increment in ends:
-        assert np.all(increment.shear[:, ~increment.in_contact] == 0)
-    assert np.abs(np.sum(ends[-1].shear)) * 9 * A**2 / 32**2 < 1e-9 * LIMIT
-
-
-def test_contact_that_grows_to_the_edge_names_the_step_and_keeps_the_state_before():
-    with pytest.raises(ContactAtWindowEdge, match="step 2") as caught:
-        solve(scene(PRESS, {"normal_force": 1e5}), grid(), TOLERANCE)
-    assert caught.value.last_state.normal_force == pytest.approx(1e3)
 
 
 def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):

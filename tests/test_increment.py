@@ -14,14 +14,6 @@ from coupled_scenes import scene as coupled_scene
 from contact_scene.quantities.summary import ContactStatus
 from fem_reference.contact.increment import touching_share as share_of_rings
 from semi_analytical import SurfaceGrid, solve
-from semi_analytical.increments.increment_history import (
-    PreviousIncrement,
-    further,
-    further_fields,
-    further_motion,
-)
-from semi_analytical.increments.normal_target import NormalTarget
-from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import touching_share
 from semi_analytical.operator.operator import DisplacementOperator
 
@@ -40,43 +32,6 @@ def test_products_are_counted_and_a_constant_load_needs_none_of_pressure(monkeyp
         monkeypatch.setattr(DisplacementOperator, name, counted(name, plain))
     pressed, pushed = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE).increments
     assert made == ["normal"] * pressed.convolutions + ["tangential"] * (pushed.convolutions // 2)
-
-
-def previous(force, shift, torque, twist, size) -> PreviousIncrement:
-    """State of an increment whose fields have one size."""
-    field = np.full((2, 1, 1), size)
-    loads = {"force": np.array(force), "shift": np.array(shift), "torque": torque, "twist": twist}
-    return PreviousIncrement(NormalTarget(force=1.0), field[0], field, field, **loads)
-
-
-BEHIND = previous((0.1, 0.2), (1.0, 2.0), 1e-3, 1e-6, 1.0)
-NOW = previous((0.3, 0.5), (3.0, 5.0), 2e-3, 3e-6, 3.0)
-WAY = np.array([0.2, 0.3])
-
-
-@pytest.mark.parametrize(
-    ("way", "turn", "part"),
-    [
-        *((part * WAY, turn, part) for part in (0.01, 0.5, 1.0, 2.0) for turn in (None, part)),
-        *((way, None, 0.0) for way in (-WAY, 2.1 * WAY, 0 * WAY, WAY @ [[1, 0.01], [0, 1]])),
-        (WAY, 2.0, 0.0),
-    ],
-)
-def test_only_where_the_load_goes_straight_on_the_state_goes_as_much_further(way, turn, part):
-    by_force, by_shift = (
-        {"force": NOW.force + way, "torque": turn and NOW.torque + turn * 1e-3},
-        {"shift": NOW.shift + 10 * way, "twist": turn and NOW.twist + turn * 2e-6},
-    )
-    for loads in (by_force, by_shift):
-        target = TangentialTarget(**loads)
-        assert further(NOW, BEHIND, target) == pytest.approx(part, rel=1e-12)
-        ahead = further_fields(NOW, BEHIND, target)
-        for field in (ahead.pressure, ahead.shear, ahead.displacement):
-            np.testing.assert_allclose(field, 3.0 + 2.0 * part)
-        if part:
-            twist = [3e-6 + part * 2e-6] if target.torque else []
-            motion = [3 + part * 2, 5 + part * 3, *twist]
-            np.testing.assert_allclose(further_motion(NOW, BEHIND, target), motion)
 
 
 def products(described, cells):

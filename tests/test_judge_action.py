@@ -54,16 +54,13 @@ def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
         "hertz_point",
         "coated_paraboloid/E1_over_E2=2",
     ]
-    code, page = act(
-        tmp_path, SOLVER="mine.py:right", CASES="hertz_point", STRICT="true", GRADE="A"
-    )
-    assert (code, "class A" in page) == (0, True)
-    assert (tmp_path / "judged" / "hertz_point" / "badge.json").is_file()
     exact = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}
     two_levels = judge("hertz_point", lambda *_: Answer(1e-5, exact), 2, seconds=None)
     save_judgement(two_levels, tmp_path / "saved.json")
-    code, _ = act(tmp_path, SOLVER="mine.py:right", CASES="hertz_point", AGAINST="saved.json")
-    assert code == 7  # a level is missing
+    given = {"STRICT": "true", "GRADE": "A", "AGAINST": "saved.json"}
+    code, page = act(tmp_path, SOLVER="mine.py:right", CASES="hertz_point", **given)
+    assert (code, "class A" in page) == (7, True)  # a level is missing
+    assert (tmp_path / "judged" / "hertz_point" / "badge.json").is_file()
 
 
 @pytest.mark.parametrize("inputs", [{}, {"SOLVER": "a.py:f", "ANSWERS": "b"}, {"ANSWERS": "none"}])

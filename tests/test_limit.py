@@ -1,27 +1,22 @@
 """Tests of critical loads: first yield, cracking and debonding against closed forms."""
 
 from dataclasses import dataclass
-from math import exp, pi
+from math import exp
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from contact_errors.error_formula import unknown_error
-from contact_results.stress.invariants import von_mises
 from contact_scene import (
     RIGID,
     Body,
     Cone,
-    CoulombFriction,
     Cylinder,
-    FiniteElementDiscretisation,
     FlatPunch,
-    InterfaceStrength,
     IsotropicMaterial,
-    Layer,
     LoadStep,
     Paraboloid,
     Scene,
@@ -33,7 +28,6 @@ from slipstick.critical_load import LoadFactorSearch, critical_loads
 from verification.closed_forms.hertz import PointContact, contact_modulus
 from verification.closed_forms.huber_stress import (
     huber_stress,
-    trailing_edge_tension,
 )
 from verification.closed_forms.line_contact import CylinderContact
 
@@ -44,11 +38,6 @@ W = 50.0
 SEARCHED = 1e-8
 YIELD = 1e9
 TENSILE = 0.3e9
-COARSE: dict[str, Any] = {
-    "radial": None,
-    "semi-analytical": SurfaceDiscretisation(cells=(64, 64)),
-    "fem-complementarity": FiniteElementDiscretisation(elements_per_radius=16),
-}
 
 
 def steel(nu: float = 0.3, **strengths: float) -> IsotropicMaterial:
@@ -92,24 +81,18 @@ def error_of(one: Any) -> float:
     return float(one.error.error)
 
 
-@pytest.mark.parametrize(
-    ("solver", "nu"),
-    [
-        *[("radial", 0.0), ("radial", 0.3), ("radial", 0.5)],
-        *[("semi-analytical", 0.3), ("fem-complementarity", 0.3)],
-    ],
-)
-def test_ball_yields_below_and_cracks_at_the_edge(solver: str, nu: float) -> None:
+@pytest.mark.parametrize("nu", [0.3, 0.5])
+def test_ball_yields_below_and_cracks_at_the_edge(nu: float) -> None:
     """p0 = 1.60 Y at 0.48 a for nu = 0.3 (Johnson 1985), and tension (1 - 2nu)/3 p0 (Huber)."""
     body = Body(material=steel(nu, yield_strength=YIELD, tensile_strength=TENSILE))
-    found = critical_loads(pressed(body, nu=nu), solver, COARSE[solver])
+    found = critical_loads(pressed(body, nu=nu), "radial")
     limits, (constant, depth) = by_measure(found), yield_on_axis(nu)
     first = limits["von_mises"]
     wrong = first.load_factor - load_at(YIELD / constant, nu)
     assert abs(wrong) <= error_of(first) + SEARCHED * first.load_factor
     assert first.normal_force == pytest.approx(W * first.load_factor, rel=1e-3)
     radius = hertz(first.normal_force, nu).contact_radius
-    assert first.place[2] == pytest.approx(depth * radius, rel=1e-4 if solver == "radial" else 0.1)
+    assert first.place[2] == pytest.approx(depth * radius, rel=1e-4)
     assert len(found.load_factors) <= 4
     crack = limits["max_principal"]
     if nu == 0.5:  # no tension at the edge: (1 - 2nu)/3 = 0
@@ -137,50 +120,6 @@ def test_cylinder_yields_at_the_surface_for_small_poisson_ratios(nu, constant, d
     assert abs(one.load_factor - exact) <= error_of(one) + 1e-5 * exact
     reached = contact.under(1e5 * exact).contact_radius
     assert one.place[2] == pytest.approx(depth * reached, abs=0.03 * reached)
-
-
-def test_strong_friction_moves_the_onset_of_yield_to_the_surface() -> None:
-    """Hamilton (1983): the first yield is at the surface for coefficients above about 0.3."""
-    friction = 0.5
-    body = Body(material=steel(yield_strength=YIELD, tensile_strength=YIELD))
-    slides = LoadStep(tangential_force=(friction * W, 0.0), increments=1)
-    scene = pressed(body, slides, friction=CoulombFriction(coefficient=friction))
-    limits = by_measure(critical_loads(scene, discretisation=SurfaceDiscretisation(cells=(48, 48))))
-    # At the trailing edge sigma_xx is the largest tension, and sigma_yy is -(1 - 2nu)/3 p0 of the
-    # pressure and (3 pi/8) nu mu p0 of the shear.
-    tension = trailing_edge_tension(1.0, friction, 0.3)
-    across = 3 * pi / 8 * 0.3 * friction - (1 - 2 * 0.3) / 3
-    largest = float(von_mises(np.array([tension, across, 0.0, 0.0, 0.0, 0.0])))
-    for measure, stress in (("von_mises", largest), ("max_principal", tension)):
-        found, exact = limits[measure], load_at(YIELD / stress, 0.3)
-        assert abs(found.load_factor - exact) <= error_of(found)
-        assert (found.place[2], found.step) == (0.0, 2)
-
-
-def test_layer_of_the_base_material_keeps_its_strengths_and_its_interface() -> None:
-    """Stresses at the fixed depth of an interface are Huber's, and no powers of the load."""
-    depth, bond = 60e-6, 0.25e9
-    layer = Layer(
-        thickness=depth, material=steel(), interface_strength=InterfaceStrength(shear=bond)
-    )
-    scene = pressed(Body(material=steel(yield_strength=YIELD), layers=(layer,)))
-    found = {(one.region, one.measure): one for one in critical_loads(scene, "radial").limits}
-
-    def shear(contact: PointContact) -> float:
-        r = np.linspace(0, 2, 4001) * contact.contact_radius
-        stress = huber_stress(r, depth, contact.contact_radius, contact.peak_pressure, 0.3)
-        return float(np.max(np.abs(stress.shear))) - bond
-
-    constant, deep = yield_on_axis(0.3)
-    exact = {
-        ("interface 1", "interface_shear"): exp(brentq(lambda x: shear(hertz(W * exp(x))), -2, 2)),
-        ("base", "von_mises"): load_at(YIELD / constant, 0.3),
-    }
-    for key, factor in exact.items():
-        one = found[key]
-        assert abs(one.load_factor - factor) <= error_of(one) + 1e-6 * factor  # points of shear
-    assert found["interface 1", "interface_shear"].place[2] == pytest.approx(depth)
-    assert deep * hertz(W * exact["base", "von_mises"]).contact_radius > depth
 
 
 def test_indenter_of_another_strength_is_judged_by_itself() -> None:
@@ -283,6 +222,3 @@ def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
     assert (one.load_factor, one.below) == (None, 1.0)
     assert one.reason is not None
     assert "the contact reaches the edge" in one.reason
-
-
-# ---- command

@@ -1,7 +1,7 @@
 """Tests of load cycles: where they close, and the slip and tension that they leave."""
 
 from itertools import combinations
-from math import cos, pi, sin, sqrt
+from math import cos, pi, sin
 
 import contact_scenes
 import numpy as np
@@ -12,7 +12,6 @@ from contact_scenes import (
     PRESS,
     YOUNG,
     A,
-    grid,
     hertz,
     paraboloid,
     push,
@@ -32,12 +31,10 @@ from contact_scene import (
 )
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.stepping.load_path import load_path
-from semi_analytical import solve, solve_discretised
+from semi_analytical import solve_discretised
 from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSlip
 from verification.closed_forms.hertz import contact_modulus
-from verification.problems import problem as paper
 
-TOLERANCE = 1e-8
 LOOP = (PRESS, push(0.9, increments=4), push(-0.9, increments=8), push(0.9, increments=8))
 CIRCLE = [push(0.5 * cos(k * pi / 2), 0.5 * sin(k * pi / 2)) for k in range(9)]
 CYCLES = {
@@ -64,15 +61,6 @@ def test_a_cycle_closes_where_all_loads_return(loading, expected):
     assert [(cycle.start, cycle.end) for cycle in found] == expected
 
 
-NU_ZERO = contact_scenes.steel(0.0, 2 * paper.CONTACT_MODULUS)
-
-
-def loop(cells, *loading, window=1.1):
-    """The ball with ν = 0, where the closed form holds."""
-    described = contact_scenes.scene(*(loading or LOOP), indenter=paraboloid(NU_ZERO), body=NU_ZERO)
-    return solve(described, grid(cells, window), TOLERANCE)
-
-
 def mindlin_loop(part):
     """Scene of a loop to parts of the friction limit for ν = 0, and its closed form."""
     contact, loose = hertz(poisson_ratio=0.0), steel(0.0)
@@ -83,7 +71,7 @@ def mindlin_loop(part):
     return posed, CycledContact(end, contact.peak_pressure), contact.contact_radius
 
 
-@pytest.mark.parametrize(("part", "cells"), [(0.4, 51), (0.9, 36)])
+@pytest.mark.parametrize(("part", "cells"), [(0.9, 36)])
 def test_the_largest_slip_lies_at_the_edge_within_a_cell(part, cells):
     """The largest value of the cells is up to 7 % off, F2 by 20 %."""
     posed, exact, a = mindlin_loop(part)
@@ -112,7 +100,7 @@ def test_the_largest_slip_on_rings_lies_at_the_edge(solver, asked, off):
     assert np.max(found.slip_amplitude) < (1 - off) * slip
 
 
-@pytest.mark.parametrize("part", [0.5, 0.9])
+@pytest.mark.parametrize("part", [0.5])
 def test_elements_state_the_slip_around_the_contact_that_they_neglect(part):
     """It varies by ν/(2 - ν) around a narrow annulus, and by half of this in gross slip."""
     loop_of = (PRESS, push(part, increments=4), push(-part, increments=8), push(part, increments=8))
@@ -161,13 +149,3 @@ def test_slip_amplitude_keeps_its_bound(width):
     ratio = cycles._slip_amplitude(lambda: iter(path)) / exact
     assert np.all(ratio <= 1 + 1e-12)
     assert np.all(ratio >= (cos(pi / 2 / cycles.DIRECTIONS) if width else 1 - 1e-12))
-
-
-def test_the_tension_of_a_loop_is_that_along_its_force():
-    oblique = [push(x * sqrt(0.5), x * sqrt(0.5), increments=8) for x in (0.9, -0.9, 0.9)]
-    found = [fretting_cycles(loop(32, *loading))[0] for loading in (LOOP, (PRESS, *oblique))]
-    along_x, along_diagonal = (np.max(cycle.surface_tension) for cycle in found)
-    assert along_diagonal == pytest.approx(along_x, rel=0.02)
-    for cycle in found:
-        pulled = cycle.surface_tension > 0
-        assert np.array_equal(cycle.ruiz_f2 > 0, pulled & (cycle.ruiz_f1 > 0))

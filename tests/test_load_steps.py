@@ -13,11 +13,9 @@ from contact_scene import (
     HeightMap,
     IsotropicMaterial,
     LoadStep,
-    ScalarControl,
     Scene,
     SceneError,
     Sphere,
-    VectorControl,
 )
 from contact_scene.stepping.load_path import along_one_line, first_direction
 
@@ -32,63 +30,6 @@ def scene(*steps: dict[str, Any], mu: float | None = 0.1) -> Scene:
         body=Body(material=STEEL),
         friction=None if mu is None else CoulombFriction(coefficient=mu),
         loading=tuple(LoadStep(**step) for step in steps),
-    )
-
-
-def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
-    path = scene(
-        {"normal_force": 100.0},
-        {"tangential_force": (5.0, 0.0), "increments": 3},
-        {"normal_force": 200.0},
-        {"approach": 1e-6},
-        {"tangential_shift": (1e-6, -1e-6)},
-        {"approach": 2e-6, "tangential_shift": (0.0, 0.0)},
-        {"normal_force": 50.0},
-    ).load_path()
-    assert [(ramp.step, ramp.increments) for ramp in path] == [
-        (step, 3 if step == 2 else None) for step in range(1, 8)
-    ]
-    assert [ramp.normal for ramp in path] == [
-        ScalarControl(FORCE, 0.0, 100.0),
-        ScalarControl(FORCE, 100.0, 100.0),
-        ScalarControl(FORCE, 100.0, 200.0),
-        ScalarControl(DISPLACEMENT, None, 1e-6),  # the approach so far: known once solved
-        ScalarControl(DISPLACEMENT, 1e-6, 1e-6),
-        ScalarControl(DISPLACEMENT, 1e-6, 2e-6),
-        ScalarControl(FORCE, None, 50.0),
-    ]
-    held = VectorControl(FORCE, (5.0, 0.0), (5.0, 0.0))
-    assert [ramp.tangential for ramp in path] == [
-        VectorControl(FORCE, (0.0, 0.0), (0.0, 0.0)),
-        VectorControl(FORCE, (0.0, 0.0), (5.0, 0.0)),
-        held,
-        held,
-        VectorControl(DISPLACEMENT, None, (1e-6, -1e-6)),
-        VectorControl(DISPLACEMENT, (1e-6, -1e-6), (0.0, 0.0)),
-        VectorControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
-    ]
-
-
-def test_rotations_that_no_step_has_named_are_held_at_zero() -> None:
-    path = scene(
-        {"normal_force": 100.0},
-        {"moment": (0.1, -0.2), "torque": 0.3},
-        {"twist": 0.01, "tilt": (0.0, 0.0)},
-    ).load_path()
-    assert [ramp.twisting for ramp in path] == [
-        ScalarControl(DISPLACEMENT, 0.0, 0.0),
-        ScalarControl(FORCE, None, 0.3),  # the torque that holding took: known once solved
-        ScalarControl(DISPLACEMENT, None, 0.01),
-    ]
-    assert [ramp.tilting for ramp in path] == [
-        VectorControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
-        VectorControl(FORCE, None, (0.1, -0.2)),
-        VectorControl(DISPLACEMENT, None, (0.0, 0.0)),
-    ]
-    (first,) = scene({"normal_force": 100.0, "moment": (0.1, 0.0), "torque": 0.3}).load_path()
-    assert (first.tilting, first.twisting) == (
-        VectorControl(FORCE, (0.0, 0.0), (0.1, 0.0)),
-        ScalarControl(FORCE, 0.0, 0.3),
     )
 
 

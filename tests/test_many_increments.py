@@ -1,4 +1,4 @@
-"""Tests of load histories of 150 and 10 000 increments: the memory does not grow with their number.
+"""Tests of load histories of 100 and 10 000 increments: the memory does not grow with their number.
 
 Every increment is reported once, and the final state is that of a few increments.
 """
@@ -41,10 +41,10 @@ def pushed(solver: str, count: int) -> slipstick.Scene:
     return scene(PRESS, push(0.5, increments=count))
 
 
-many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
+MANY = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 
 
-@pytest.mark.parametrize("count", [150, many])
+@pytest.mark.parametrize("count", [100, MANY])
 @pytest.mark.parametrize("solver", FINENESS)
 def test_memory_is_flat_and_the_end_that_of_a_few(
     solver: str, count: int, monkeypatch: pytest.MonkeyPatch

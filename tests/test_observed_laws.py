@@ -2,14 +2,11 @@
 
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from contact_scene import Body, LoadStep
-from contact_scene.quantities.residuals import Residuals
-from radial.tangential import ring_layout, ring_problem
+from contact_scene import LoadStep
 from verification.judging.case import (
     OTHER_NORMS,
     SOLVER_TOLERANCE,
@@ -27,12 +24,8 @@ from verification.problems import problem as paper
 from verification.problems.cattaneo_mindlin import torque_step
 from verification.problems.problem import (
     FRICTION_LIMIT,
-    NORMAL_FORCE,
     NU_ZERO,
     STEEL,
-    SUBSTRATE,
-    pressed,
-    rigid_ball,
 )
 from verification.solver import Method
 
@@ -52,14 +45,6 @@ def scene(*loading):
 
 def twisted():
     return paper.frictional("Twisted", paper.paraboloid(STEEL), STEEL, torque_step(0.6))
-
-
-def coupled(*more):
-    title, indenter, body = "Pressed with friction", rigid_ball(), Body(material=SUBSTRATE)
-    smooth = pressed(title, indenter, body, LoadStep(normal_force=NORMAL_FORCE, increments=3))
-    smooth = smooth.model_copy(update={"loading": (*smooth.loading, *more)})
-    friction = scene().friction
-    return smooth.model_copy(update={"friction": friction})
 
 
 LOOP = push(0.6), push(-0.3)
@@ -189,61 +174,6 @@ def test_prescribed_force_that_is_not_told_is_missed(solved, name):
 
 
 # ---- rings
-
-
-def of_old_pressure(monkeypatch):
-    """The friction limit at the end of an increment is that at its start."""
-    usual = ring_problem.RingProblem.of.__func__
-
-    def late(cls, points, friction, loads, before, free=None):
-        problem = usual(cls, points, friction, loads, before, free)
-        if before is None:
-            return problem
-        old = SimpleNamespace(
-            limit=lambda p: np.minimum(friction.limit(before.pressure), 1e3 * p),
-            slope=lambda p: np.zeros_like(p),
-            largest=friction.largest,
-        )
-        return replace(problem, friction=old)
-
-    monkeypatch.setattr(ring_problem.RingProblem, "of", classmethod(late))
-
-
-def stiffer(block, factor):
-    """Compliances of some harmonics and components are wrong by a factor."""
-
-    def plant(monkeypatch):
-        usual = ring_layout.ring_compliance
-
-        def wrong(*given):
-            found = usual(*given)
-            found[block] *= factor
-            return found
-
-        monkeypatch.setattr(ring_layout, "ring_compliance", wrong)
-
-    return plant
-
-
-LESS = LoadStep(normal_force=0.8 * NORMAL_FORCE, increments=2)
-PLANTED = {
-    "friction limit of the old pressure": (of_old_pressure, scene(push(0.7), LESS)),
-    "stiffer in shear": (stiffer(np.s_[1:2, :2, :2], 0.9), scene(*LOOP)),
-    "stiffer in pressure": (stiffer(np.s_[0, 2, 2], 0.98), scene(*LOOP)),
-    "less coupling": (stiffer(np.s_[:, :2, 2], 0.9), coupled(push(0.4))),
-    "stiffer in torsion": (stiffer(np.s_[0, 1, 1], 0.8), twisted()),
-}
-
-
-@pytest.mark.parametrize("defect", PLANTED)
-def test_a_defect_in_rings_is_seen(monkeypatch, defect):
-    plant, asked = PLANTED[defect]
-    run = RadiiRun("rings", asked, at_points=defect == "stiffer in torsion")
-    sound = run.solve()
-    assert max(observed(sound)[:2]) < run.laws
-    plant(monkeypatch)
-    monkeypatch.setattr(Residuals, "require", lambda *_: None)
-    assert max(observed(run.solve())[:2]) > 2 * run.laws
 
 
 def test_one_ring_above_its_limit_is_seen(solved):

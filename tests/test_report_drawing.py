@@ -19,7 +19,7 @@ INKS = ("ink", "soft", "link", "pass", "fail", "inconclusive")
 LINES = ("reference", *(f"series-{n}" for n in range(1, 7)))
 
 
-@pytest.mark.parametrize("letters", [10, 35, 70])
+@pytest.mark.parametrize("letters", [10, 70])
 def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
     curves = tuple(curve(f"{n} {'m' * letters}", [1, 2], [n, n + 1], series=n) for n in range(8))
     panel = Panel(x_label="x", y_label="y", curves=curves, height=2.4)

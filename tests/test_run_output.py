@@ -1,6 +1,5 @@
 """Tests of the files of a run: their content, and equal bytes for equal results."""
 
-import json
 import os
 import re
 import subprocess
@@ -15,7 +14,7 @@ import pytest
 from matplotlib.figure import Figure
 from small_result import small_errors, small_result
 
-from contact_results.directory.file_names import PAGE, SUMMARY
+from contact_results.directory.file_names import PAGE
 from contact_results.figures.map_panels import PANEL, MapFrame
 from contact_results.figures.maps import field_map
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
@@ -24,10 +23,6 @@ from contact_results.figures.style import figure_style
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.result_report import ResultReport
-from contact_scene.quantities.summary import (
-    load_summary,
-    summary_schema,
-)
 from semi_analytical.fields import Result
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -74,19 +69,6 @@ def test_a_title_of_any_characters_is_drawn_without_a_warning(
     assert not write_result(named, tmp_path).causes
     assert (tmp_path / PAGE).read_text(encoding="utf-8").count(escape(title)) >= 2
     assert [str(warning.message) for warning in recwarn] == []
-
-
-def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path]) -> None:
-    import jsonschema
-
-    result, directory = written
-    text = (directory / SUMMARY).read_text(encoding="utf-8")
-    jsonschema.validate(json.loads(text), summary_schema())
-    summary, errors = load_summary(text), small_errors(result).steps
-    assert tuple(step.errors for step in summary.steps) == errors
-    for step, end in zip(summary.steps, result.steps, strict=True):
-        assert np.array_equal(step.tangential_force, end.tangential_force)
-        assert step.dissipated_energy == end.dissipated_energy
 
 
 # ---- page

@@ -10,22 +10,15 @@ from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
 from verification.running import case_pool as case_store
 from verification.running.study import Settings
-from verification.studies.seeded_defects import (
-    HEALTHY,
-    DefectRun,
-    failed_verdicts,
-)
+from verification.studies.seeded_defects import DefectRun, failed_verdicts
 
 QUICK = Settings(Level.QUICK)
-# Cases that take a fraction of a second.
+# Cases that take a fraction of a second. `test_declared_cases` solves them without a defect.
 FAST = (
     "dissimilar_bodies",
-    "exchanged_bodies",
-    "fem_far_field",
     "hertz_approach_control",
     "layered_reference",
     "led_histories",
-    "near_sliding",
     "subsurface_stress",
     "tilted_punch",
     "worked_examples",
@@ -38,8 +31,6 @@ FAST_RUNS = [
 ]
 # A quicker defect is caught by the same law.
 SLOW = (
-    "fe-coated-indenter-uncoupled",
-    "fe-coupling-of-the-indenter",
     "force-taken-over",
     "increments-halved",
     "one-increment",
@@ -99,11 +90,6 @@ def test_defect_is_taken_out_when_something_goes_wrong_under_it() -> None:
     with pytest.raises(ArithmeticError), planted(DEFECTS["normal-bias"]):
         raise ArithmeticError
     assert not different(before, namespaces())
-
-
-@pytest.mark.parametrize("case", FAST)
-def test_healthy_solvers_pass(case: str) -> None:
-    assert failed_verdicts(DefectRun(HEALTHY, case).compute()) == ()
 
 
 @pytest.mark.parametrize(

@@ -42,17 +42,11 @@ def sparse(path: Path, content: bytes) -> None:
 
 SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
     "keys": (lambda path: path.write_bytes(b"a = 1\n" * (100 * MEGABYTE // 6)), "too large"),
-    "one key": (lambda path: path.write_bytes(b"a" * 100 * MEGABYTE), "too large"),
     "zeros": (lambda path: sparse(path, b"title = 'x'\n"), "too large"),
     "steps": (lambda path: path.write_bytes(b"[[loading]]\n" * 800_000), "too many keys"),
     "brackets": (lambda path: path.write_bytes(b"a = " + b"[" * 9 * MEGABYTE), "too many keys"),
-    "blanks": (lambda path: path.write_bytes(b" " * 10 * MEGABYTE), "is empty"),
     "title": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"a" + b'"'), "title"),
     "escapes": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"\\"), "escapes"),
-    "lines of a text": (
-        lambda path: path.write_bytes(b'title = """' + 9 * MEGABYTE * b"\n" + b'"""'),
-        "title",
-    ),
     "key": (lambda path: path.write_bytes(9 * MEGABYTE * b"k" + b" = 1"), "kkk…"),
     "digits": (
         lambda path: path.write_bytes(b"\na = " + b"1" * MEGABYTE),
@@ -134,14 +128,12 @@ NOT_A_RESULT = f"is not the {FIELDS} of a run: "
 DIGEST = "its digest is not that"
 RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
     "grid": (lambda path: surface_result(path, increments_of_pressure=(6, HUGE, HUGE)), CLAIM),
-    "steps": (lambda path: surface_result(path, increments_of_step=(1 << 40,)), CLAIM),
     "pressure": (lambda path: surface_result(path, increments_of_pressure=(6, 9, HUGE)), "shape"),
     "shear": (lambda path: surface_result(path, increments_of_shear=(6, 2, 9, HUGE)), "shape"),
     "dimensions": (lambda path: surface_result(path, x=(HUGE, HUGE)), CLAIM),
     "map": (lambda path: surface_result(path, maps_of_file=(HUGE, HUGE)), CLAIM),
     "chunks": (lambda path: many_chunks(path), "chunks, at most"),
     "zeros": (lambda path: damaged(path, b""), DIGEST),
-    "zeros after a signature": (lambda path: damaged(path, b"\x89HDF\r\n\x1a\n"), DIGEST),
 }
 
 

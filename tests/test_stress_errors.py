@@ -65,9 +65,7 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     ("thickness", "modulus", "count", "widest"),
     [
         (0.04, 600e9, 24, 0.1),
-        (0.04, 600e9, 64, 0.05),
         (0.4, 420e9, 48, 0.05),
-        (0.4, 420e9, 64, 0.05),
     ],
 )
 def test_the_tension_at_a_coating_pressed_without_friction_is_known(
@@ -78,7 +76,8 @@ def test_the_tension_at_a_coating_pressed_without_friction_is_known(
     posed = indented(0.018, 1e3, film, steel(0.3, 210e9), None)
     result = package.solve(posed, "semi-analytical", cells(count))
     value, error = largest_tension(result)
-    exact, _ = largest_tension(package.solve(posed, "radial"))
+    by_rings: Any = package.solve(posed, "radial")
+    ((exact, _),) = largest_stresses(by_rings, None, ["max_principal@body"]).values()
     assert error.status is ErrorStatus.ESTIMATED
     assert abs(value - exact) <= size(error) <= widest * exact
 
@@ -170,7 +169,7 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
         assert error.status is expected, error.reason
 
 
-@pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
+@pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
 def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
     """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
     slid = {"tangential_shift": (1e-4, 0.0)}

@@ -18,16 +18,6 @@ from verification.running.study import (
     row_files,
 )
 
-numbers = st.floats(allow_nan=False, allow_infinity=False) | st.none()
-names = st.text(st.characters(codec="utf-8", categories=["L", "N"]), min_size=1, max_size=8)
-rows = st.builds(
-    CaseRecord,
-    parameters=st.dictionaries(names, numbers | st.booleans() | st.integers() | names),
-    measures=st.dictionaries(names, numbers),
-    counters=st.dictionaries(names, st.integers(0, 2**40)),
-    words=st.dictionaries(names.map("said_{}".format), names),
-)
-
 
 class How(StrEnum):
     WELL = "well"
@@ -44,11 +34,6 @@ class Asked:
     how: How = How.WELL
     inner: Inner = Inner(2.0)
     cells: tuple[int, int] = (4, 6)
-
-
-@given(rows)
-def test_a_record_comes_back_from_its_file(record: CaseRecord) -> None:
-    assert CaseRecord.model_validate_json(record.model_dump_json()) == record
 
 
 def test_the_clock_changes_no_other_file() -> None:

@@ -1,15 +1,12 @@
 """Tests of the surface of a result: axisymmetric fields are equal on cells and on rings."""
 
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from stored_mesh import read_mesh
 
-from contact_results.files.surface_file import write_surface
-from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
+from contact_results.surface import Cells, Rings, Surface
 from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
@@ -103,21 +100,3 @@ def test_weights_integrate_over_the_surface() -> None:
             both.append(integrals(surface, on_rings(surface, *parts)))
         both.append(integrals(rings(radii, None), on_rings(rings(radii, None), "along_load")))
         assert np.max(np.abs(np.array(both) - exact) / allowed) <= 1
-
-
-def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None:
-    """A vector along the load, of components outward and around the axis."""
-    half = rings(np.linspace(0.0, REACH, 16), 9, OBLIQUE)
-    size, angles = hump(half.radii)[:, None], np.asarray(half.angles)
-    fields = {
-        "shear_radial": size * np.cos(angles),
-        "shear_circumferential": -size * np.sin(angles),
-    }
-    state = SimpleNamespace(
-        **dict.fromkeys(SURFACE_FIELDS) | {"pressure": hump(half.radii)} | fields
-    )
-    write_surface(half, state, tmp_path / "half.vtu", "")
-    mesh = read_mesh(tmp_path / "half.vtu")
-    expected = hump(np.hypot(*mesh.points[:, :2].T))[:, None] * [*OBLIQUE, 0.0]
-    assert len(mesh.points) == 16 * len(half.radii)
-    np.testing.assert_allclose(mesh.at_points["shear [Pa]"], expected, atol=ROUND_OFF)

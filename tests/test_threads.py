@@ -40,6 +40,7 @@ def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver:
     assert found[0] == found[1]
 
 
+@pytest.mark.slow
 def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
     words = ("table", "ball", "--over", "E1_over_E2=0.5,2", "--over", "h_over_aH=0.1,1")
     one, two = (run(folder, *words, threads=threads).out for threads in (1, 2))

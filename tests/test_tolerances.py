@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from command import slipstick
 from report_examples import report_by
 
 from verification.cases.indenters import hertz_point
@@ -19,9 +18,7 @@ from verification.judging.outcome import (
 from verification.regression.baseline import (
     LEAST,
     MOVED,
-    Acceptance,
     BaselineRefused,
-    Tolerance,
     Tolerances,
     accept_tolerances,
     held_to,
@@ -30,7 +27,6 @@ from verification.regression.baseline import (
     read_tolerances,
     text_of,
 )
-from verification.running.report_record import load_report
 
 
 @pytest.fixture(scope="module")
@@ -141,24 +137,3 @@ def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> No
     assert all(one.because for one in accepted)
     named = [pair for one in accepted for pair in one.tolerances.items()]
     assert {(case, key) for case, keys in named for key in keys} <= recorded
-
-
-@pytest.mark.usefixtures("one_process")
-def test_verify_judges_by_the_accepted_tolerances(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Below each error, so that every number fails that passes by the bound of its case."""
-    verify = ("verify", "dissimilar_bodies", "--output", tmp_path)
-    assert slipstick(*verify) == 0
-    measured = load_report(tmp_path / "report.json").cases[0]
-    tight = {
-        text_of(v): Tolerance(allowed=0.9 * v.error, error=0.45 * v.error)
-        for v in measured.verdicts
-        if v.error and v.error > FLOOR
-    }
-    accepted = Acceptance(because="why", commit=None, kernels=(), tolerances={measured.name: tight})
-    known = Tolerances(level="quick", accepted=(accepted,))
-    monkeypatch.setattr("slipstick.cli.commands.verify.read_tolerances", lambda level: known)
-    assert slipstick(*verify) == 1
-    failed = capsys.readouterr().out.count("\nFAIL dissimilar_bodies/")
-    assert failed >= len(tight) - 1 > 1

@@ -14,17 +14,8 @@ radius = "18 mm"
 material = "rigid"
 [body]
 material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
 [[loading]]
 normal_force = "1 kN"
-[[loading]]
-tangential_force = [50, 0]
-increments = 4
-[semi_analytical]
-cells = [32, 32]
-[radial]
-rings = 10
 """
 # Exponents of force, radius and Young's modulus in Hertz' results (Johnson 1985, section 4.2).
 HERTZ = {
@@ -39,24 +30,19 @@ INPUTS = (
 SHARES = (0.01, 0.03, 0.02)
 
 
-@pytest.mark.parametrize("solver", ["semi-analytical", "fem", "radial"])
-def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) -> None:
-    pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
-    (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
-    coarse = "semi_analytical.cells=[32,32]", "fem_reference.elements_per_radius=6"
-    changed = [word for one in coarse for word in ("--set", one)]
-    command = ("run", "scene.toml", "-o", "out", "--solver", solver, "--inputs", INPUTS)
-    ended = succeeded(*command, *changed, "--no-error", cwd=tmp_path)
+def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    command = ("run", "scene.toml", "-o", "out", "--solver", "radial", "--inputs", INPUTS)
+    ended = succeeded(*command, "--no-error", cwd=tmp_path)
     found = json.loads((tmp_path / "out/inputs.json").read_text(encoding="utf-8"))
     assert [one["deviation"] for one in found["inputs"]] == [0.01, 0.54, 4.2]
     for name, powers in HERTZ.items():
         number = found["numbers"][name]
         assert number["numerical"] is None  # unknown because of --no-error, not 0
         changes = [change / number["value"] for change in number["changes"].values()]
-        # The third derivative is left, and at most a hundredth by elements.
-        rough = 0.01 if solver == "fem" else 1e-3
+        # The third derivative is left.
         expected = [power * share for power, share in zip(powers, SHARES, strict=True)]
-        assert changes == pytest.approx(expected, rel=rough)
+        assert changes == pytest.approx(expected, rel=1e-3)
         assert number["by_inputs"] == pytest.approx(hypot(*changes) * number["value"])
     page = (tmp_path / "out/index.html").read_text(encoding="utf-8")
     assert "Uncertainty by inputs" in page

@@ -4,8 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from contact_scene.disk_cache import cached_array
 from radial.response.wavenumbers import (
@@ -17,54 +15,9 @@ from verification.running.study import Settings
 from verification.studies.work_precision import (
     OWN,
     STUDY,
-    TARGETS,
     Method,
-    Point,
     PrecisionCase,
-    cheapest,
-    dependable,
-    pareto,
 )
-
-SETTINGS = Settings(Level.QUICK)
-positive = st.floats(1e-6, 1.0)
-points = st.lists(
-    st.builds(
-        lambda method, fineness, error, seconds: Point(method, "", "", fineness, error, seconds),
-        st.sampled_from(["one", "other"]),
-        st.integers(1, 64),
-        positive,
-        positive,
-    ),
-    max_size=20,
-)
-
-
-@given(points, st.sampled_from(TARGETS))
-def test_the_pareto_line_beats_every_point_and_has_the_cheapest(
-    all_points: list[Point], target: float
-) -> None:
-    line = pareto(all_points)
-    for p in all_points:
-        assert any(kept.seconds <= p.seconds and kept.error <= p.error for kept in line)
-    assert [p.seconds for p in line] == sorted(p.seconds for p in line)
-    good = [p.seconds for p in all_points if p.error <= target]
-    best = cheapest(all_points, target)
-    assert (best.seconds if best else None) == min(good, default=None)
-
-
-@given(points)
-def test_a_finer_setting_of_a_curve_is_never_less_dependable(all_points: list[Point]) -> None:
-    steady = dependable(all_points)
-    assert sorted(p.seconds for p in steady) == sorted(p.seconds for p in all_points)
-    for p in steady:
-        finer = [q for q in all_points if q.method == p.method and q.fineness > p.fineness]
-        assert all(q.error <= p.error for q in finer)
-
-
-def test_a_setting_whose_error_is_no_number_makes_none_dependable() -> None:
-    points = [Point("a", "", "", n, e, n) for n, e in ((16, 1e-3), (32, np.nan), (64, 1e-4))]
-    assert [p.fineness for p in dependable(points) if p.error <= 1] == [64]
 
 
 def test_every_setting_has_a_name_of_its_own() -> None:
