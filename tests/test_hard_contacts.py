@@ -84,6 +84,8 @@ ON_ELEMENTS = [
     pytest.param(replace(SOFT_SECTION, push=0.5), marks=pytest.mark.slow),
     # So little friction that slip is no more than the rounding of what pressing moves.
     replace(BARE_SECTION, friction=1e-6, push=0.0, cells=48),
+    # So little friction that the slip by an update of the pressure would exceed the displacement.
+    replace(BARE_SECTION, friction=1e-6, push=0.5),
 ]
 
 
