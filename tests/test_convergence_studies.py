@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import radial
+from contact_errors.error_formula import values_of
 from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
+from slipstick import solve
 from slipstick.convergence.levels import StudiedScene, plan_of
 from slipstick.convergence.limits import Estimate, estimates
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
@@ -112,6 +114,7 @@ LOOP = [
     f'tangential_force = ["{force} N", 0]\nincrements = {count}'
     for force, count in ((90, 6), (-90, 12), (90, 12))
 ]
+CATTANEO = text(BALL, ALIKE, ALIKE, 'tangential_force = ["60 N", 0]', more=FRICTION)
 ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
@@ -201,3 +204,14 @@ def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) 
     sizes, levels = zip(*[x for x in ladder.levels.items() if not x[1].is_run], strict=True)
     boxes = np.array([level.fineness.space.box for level in levels])
     np.testing.assert_allclose(boxes[0] / boxes, (np.array(sizes) / sizes[0]) ** ladder.power)
+
+
+@pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
+def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
+    contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
+    level = plan_of(StudiedScene(contents, 2, solver), None).run.compute()
+    end = values_of(solve(contents, solver))[-1]
+    assert level.parts
+    for part in level.parts:
+        name, of = part.parameters["quantity"], part.parameters["of"]
+        assert level.measures[name] in np.atleast_1d(end[of])

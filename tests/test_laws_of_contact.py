@@ -35,7 +35,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import GrossSliding
+from contact_scene.solver_errors import GrossSliding, UnsupportedScene
 from semi_analytical import solve
 from verification.judging.case import OTHER_NORMS, OVER_RINGS
 from verification.observed.observed_laws import observed
@@ -313,3 +313,56 @@ def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> N
         assert end.tangential_shift is None
     elif shift is not ANY:
         np.testing.assert_allclose(end.tangential_shift, shift, atol=1e-9 * APPROACH, rtol=0)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_little_friction_shears_in_proportion_to_it(solver: Any) -> None:
+    """But for terms of the order µ, and the overlap of a penalty; its passes scatter by round-off
+    over µ."""
+    found, on, least, near = [], SOLVERS[solver], 1e-7, 1e-4
+    if solver == "fem":
+        on = FiniteElementDiscretisation(elements_per_radius=8, harmonics=4, overlap=1e-5)
+        least, near = 1e-6, 1e-3
+    for mu in (1e-4, least):
+        loading = press(increments=1), push(0.6, friction=mu, increments=1)
+        described = UNLIKE(*loading, body=bulk(0.3), friction=mu)
+        end = slipstick.solve(described, solver, on).steps[-1]
+        found.append((end.tangential_shift[0] / mu, end.stick_area))
+    np.testing.assert_allclose(found[1], found[0], rtol=near)
+
+
+TILTED = {"moment": (0.1 * LOAD * A, 0.3 * LOAD * A)}
+TWISTED = {"torque": 0.2 * TURN}
+BY_LOAD = {
+    **dict.fromkeys(["push", "push, coupled"], (push(0.7, increments=1), "tangential_shift")),
+    **dict.fromkeys(["torsion", "torsion, coupled"], (TWISTED, "twist")),
+    **dict.fromkeys(["tilt", "tilt, coupled"], (TILTED, "tilt")),
+}
+
+
+@pytest.mark.parametrize("solver", [name for name in SOLVERS if name != "fem"])
+@pytest.mark.parametrize("name", BY_LOAD)
+def test_a_load_and_its_motion_lead_to_the_same_state(name: str, solver: Any) -> None:
+    """But for the springs of a penalty, whose last overlap depends on the way there."""
+    load, motion = BY_LOAD[name]
+    make = UNLIKE if name.endswith("coupled") else ALIKE
+    if load is TILTED and solver != "semi-analytical":
+        with pytest.raises(UnsupportedScene, match="moment"):
+            slipstick.plan(make(press(), load), solver)
+        return
+
+    def solved(step: dict) -> Any:
+        return slipstick.solve(make(press(), {**step, "increments": 1}), solver, SOLVERS[solver])
+
+    by_load = solved(load)
+    end = by_load.steps[-1]
+    by_motion = solved({motion: getattr(end, motion)})
+    surface, other = surface_of(by_load), by_motion.steps[-1]
+    near = 1e-5 * end.peak_pressure
+    np.testing.assert_allclose(
+        surface.scalar(other, "pressure"), surface.scalar(end, "pressure"), atol=near
+    )
+    if load is not TILTED or make is UNLIKE:  # otherwise there is no shear
+        np.testing.assert_allclose(
+            surface.vector(other, "shear"), surface.vector(end, "shear"), atol=near
+        )

@@ -6,6 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contact_results.stress.invariants import principal_stresses, von_mises
+from contact_results.stress.points import StressPoints
+
+
+def test_measures_of_a_pure_shear() -> None:
+    nothing, one = np.zeros(1), np.zeros((3, 1))
+    shear = np.array([0, 0, 0, 0, 3.0, 0])[:, None]
+    points = StressPoints(nothing, nothing, nothing, nothing.astype(int), one, shear, nothing > 0)
+    found = {name: value.item() for name, value in points.measures.items()}
+    expected = {"von_mises": 3 * np.sqrt(3), "max_principal": 3.0, "max_shear": 3.0}
+    expected |= {"interface_shear": 3.0, "interface_tensile_stress": 0.0}
+    assert found == pytest.approx(expected)
+
 
 # Sixth powers of a stress are taken: below 1e-50 they underflow.
 STRESS = st.floats(-1e9, 1e9).map(lambda s: s if abs(s) > 1e-50 else 0.0)
