@@ -18,6 +18,7 @@ from contact_results.files.csv_file import (
     write_table,
 )
 from contact_results.result_report import ResultReport
+from contact_results.stress.points import index_of_largest
 from contact_results.surface import Rings
 from contact_scene.array_types import Field
 from contact_scene.quantities.field_metadata import Kind, reported
@@ -168,7 +169,7 @@ def _largest_with_place(field: Field | None, surface: Surface) -> tuple[float | 
     """
     if field is None:
         return None, None, None
-    largest = np.unravel_index(int(np.argmax(field)), field.shape)
+    largest = np.unravel_index(index_of_largest(field), field.shape)
     if field[largest] == 0:
         return 0.0, None, None
     x, y = surface.positions
