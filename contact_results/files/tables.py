@@ -17,8 +17,8 @@ from contact_results.files.csv_file import (
     write_meanings,
     write_table,
 )
+from contact_results.largest import index_of_largest
 from contact_results.result_report import ResultReport
-from contact_results.stress.points import index_of_largest
 from contact_results.surface import Rings
 from contact_scene.array_types import Field
 from contact_scene.quantities.field_metadata import Kind, reported

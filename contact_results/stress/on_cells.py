@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.largest import index_of_largest
 from contact_results.stress.body_response import BodyResponse, are_layers_thin
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import (
     FittedEdge,
     StressField,
     StressPoints,
-    index_of_largest,
 )
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field, Indices

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.largest import index_of_largest
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_scene import Body
 from contact_scene.array_types import Field
@@ -27,8 +28,6 @@ MEASURES = {
     "interface_tensile_stress": "stress zz normal to an interface, tension positive",
 }
 ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
-# Relative difference of stresses that are equal by symmetry: round-off must not choose their place.
-EQUAL = 1e-9
 
 
 def layer_name(layer: int, layers: int) -> str:
@@ -38,16 +37,6 @@ def layer_name(layer: int, layers: int) -> str:
     layers  number of layers
     """
     return f"layer {layer + 1}" if layer < layers else "base"
-
-
-def index_of_largest(values: NDArray[np.float64]) -> int:
-    """Return the flat index of the first value that equals the largest up to round-off.
-
-    A value that is not a number counts as the largest, so that it is not hidden.
-
-    values  values of a stress measure; -inf in points that do not count
-    """
-    return int(np.argmax(np.isclose(values, np.max(values), EQUAL, 0.0, equal_nan=True)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.largest import index_of_largest
 from contact_results.number_text import number_text, uncertainty
 from contact_results.stress.points import (
     ON_INTERFACES,
     StressField,
     StressPoints,
-    index_of_largest,
     layer_name,
 )
 from contact_scene import Body, IsotropicMaterial
