@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -19,10 +20,8 @@ from contact_scene.quantities.stated_error import Part
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
-# Factor of the reach of the points beside a contact whose largest stresses lie at their outer end,
-# and the reach, in contact radii, at which the search ends.
+# Factor of the reach of the points beside a contact whose largest stresses lie at their outer end.
 WIDER = 3.0
-FARTHEST = 1000.0
 SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
@@ -77,11 +76,11 @@ class OnDisc(BodyResponse):
             },
             body.direction,
         )
-        field, body = self._beyond_section(field, body)
+        field, wide = self._beyond_section(field, body)
         if depths is not None:
             return field
         nearer = [
-            body.largest(one)
+            (body if hypot(one.x, one.y) <= body.reach * radius else wide).largest(one)
             for one in extremes(field)
             if one.region in body.parts.named and one.measure in self.measures
         ]
@@ -92,24 +91,28 @@ class OnDisc(BodyResponse):
     ) -> tuple[StressField, RadialBody]:
         """Add points beyond the section at depths whose largest stress lies at its outer end.
 
-        The shear at the interface of a thick layer is largest at a distance of about its thickness.
-        The reach grows until the largest stresses lie within it.
+        The shear at the interface of a thick layer is largest at about half its thickness from the
+        axis. The reach grows until the largest stresses lie within it. Nothing is added below a
+        bulk strain, whose stress is largest at any distance.
 
         Returns the field, and the body with this reach.
         """
         from semi_analytical.frf.depth import Level
+        from semi_analytical.frf.stack import stack_of
+        from semi_analytical.stress.strips import spread
 
-        while body.reach < FARTHEST:
+        if self.state.strain is not None and not self.indenter:
+            return field, body
+        while True:
             points, ends = field.points, body.reach * body.parts.radius
             distance = np.hypot(points.x - body.centre, points.y)
             outer = points.at_edge & (distance >= (1 - 1e-9) * ends)
             outer &= points.depth != body.parts.deepest
-            far = {
-                (float(points.depth[k]), int(points.material[k]))
-                for k in map(_place(points), extremes(field))
-                if outer[k]
-            }
-            if not far:
+            measures = points.measures
+            largest = [_index_of(one, points, measures) for one in extremes(field)]
+            far = {(float(points.depth[k]), int(points.material[k])) for k in largest if outer[k]}
+            deepest = max((depth for depth, _ in far), default=0.0)
+            if not far or ends > spread(stack_of(self.body), body.parts.radius, deepest):
                 break
             body = RadialBody.from_state(
                 self.state, self.indenter, self.fineness, WIDER * body.reach
@@ -144,12 +147,13 @@ class OnDisc(BodyResponse):
         return None if is_sheared(self.state) else self.stress()
 
 
-def _place(points: StressPoints) -> Callable[[Extreme], int]:
-    """Return the function that finds the index of a largest stress among the points."""
-    measures = points.measures
-    return lambda one: int(
-        np.argmax((points.depth == one.depth) & (measures[one.measure] == one.value))
-    )
+def _index_of(extreme: Extreme, points: StressPoints, measures: Mapping[str, Field]) -> int:
+    """Return the index of the point that has a largest stress.
+
+    measures  stress measures at the points by name
+    """
+    at_value = measures[extreme.measure] == extreme.value
+    return int(np.argmax((points.depth == extreme.depth) & at_value))
 
 
 def _both_sides(right: StressPoints) -> StressPoints:

@@ -76,7 +76,10 @@ class Waves(NamedTuple):
 
         count  number of polynomials
         """
-        found = spherical_bessel(2 * count - 1, self.rule[0])[::2].copy()
+        places = self.rule[0]
+        found = np.empty((count, len(places)))
+        for some in wave_blocks(len(places), 2 * count):
+            found[:, some] = spherical_bessel(2 * count - 1, places[some])[::2]
         found[1::2] *= -1
         return found
 
@@ -98,8 +101,11 @@ class Waves(NamedTuple):
         """Compute ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),
         l < count, with the spherical Bessel function j (count, κ)."""
         half = self.rule[0] / 2
-        phases = np.arange(count)[:, None] * np.pi / 2 + half
-        return np.cos(phases) * spherical_bessel(count, half)
+        turns = np.arange(count)[:, None] * np.pi / 2
+        found = np.empty((count, len(half)))
+        for some in wave_blocks(len(half), 2 * count):
+            found[:, some] = np.cos(turns + half[some]) * spherical_bessel(count, half[some])
+        return found
 
 
 def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> Waves:
