@@ -148,10 +148,6 @@ class OnDisc(BodyResponse):
 
 
 def _index_of(extreme: Extreme, points: StressPoints, measures: Mapping[str, Field]) -> int:
-    """Return the index of the point that has a largest stress.
-
-    measures  stress measures at the points by name
-    """
     at_value = measures[extreme.measure] == extreme.value
     return int(np.argmax((points.depth == extreme.depth) & at_value))
 
