@@ -36,7 +36,6 @@ EDGES = "edge correction"
 # Cost of the edge correction, on 64² to 256² cells.
 EDGE_COST = "10 to 100 convolutions each time"
 
-# Reason why contact stiffnesses are not computed.
 # Names of the effects that can also be computed if they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 

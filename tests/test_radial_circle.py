@@ -133,7 +133,7 @@ def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int
     tractions = np.zeros((3, len(points.radii), points.count))
     tractions[way] = points.radii[:, None] * ways[way]
     moved = (points.compliance @ tractions.ravel()).reshape(tractions.shape)
-    exact = points.energies[harmonic, :, way] @ points.radii
+    exact = points.harmonics[harmonic, :, way] @ points.radii
     exact = 2 * math.pi / points.count * exact[..., None] * ways[:, None]
     assert_allclose(moved, exact, atol=1e-14)
 

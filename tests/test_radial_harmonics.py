@@ -1,24 +1,21 @@
-"""Tests of the energies of traction rings and of their Bessel functions against closed forms."""
+"""Tests of the compliance of traction rings, for each angular harmonic, against closed forms."""
 
 from __future__ import annotations
 
 import math
-import tracemalloc
 from functools import cache
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
-from scipy.special import hyp2f1, jv, spherical_jn
+from scipy.special import hyp2f1
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
 from radial.frictional.coupling import Coupling
-from radial.response.wavenumbers import spherical_bessel, waves
-from radial.tangential import ring_energies
 from radial.tangential.harmonic_kernels import equal_order_kernels
+from radial.tangential.hat_integrals import half_space_integrals
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_energies import half_space_integrals
 
 NODES = (0.0, 0.1, 0.22, 0.3, 0.5, 0.8, 0.95, 1.0, 1.3)
 HIGHEST = 6
@@ -100,45 +97,6 @@ def homogeneous() -> np.ndarray:
     return ring_compliance(pair(SOFT), NODES, 1.0, HIGHEST)
 
 
-def test_work_is_the_same_both_ways() -> None:
-    """Betti: energies are symmetric, of layers, too."""
-    coated = pair(SOFT, (material(2.0, 0.4), 0.5))
-    whole = ring_compliance(coated, NODES, 1.3, HIGHEST)
-    for found in (homogeneous(), whole):
-        assert_allclose(found, found.transpose(0, 2, 1, 4, 3), atol=1e-14)
-
-
 def test_a_layer_of_the_material_below_it_changes_nothing() -> None:
     same = ring_compliance(pair(SOFT, (SOFT, 0.4)), NODES, 1.0, HIGHEST)
     assert_allclose(same, homogeneous(), atol=1e-13)
-
-
-@pytest.mark.parametrize("highest", [0, 1, 2, 10, 40])
-def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None:
-    at = np.concatenate([[0.0], np.geomspace(1e-8, 300, 2000), highest + np.linspace(-1, 1, 41)])
-    at = np.abs(at)
-    found = list(ring_energies.bessel_functions(highest, at))
-    assert len(found) == highest + 1
-    for m, values in enumerate(found):
-        assert_allclose(values, jv(m, at), atol=2e-14)
-
-
-@pytest.mark.parametrize("count", [1, 2, 3, 40, 300])
-def test_spherical_bessel_functions_of_all_orders_are_those_of_scipy(count: int) -> None:
-    at = np.geomspace(1e-8, 2500, 1500)
-    expected = spherical_jn(np.arange(count)[:, None], at)
-    found = spherical_bessel(count, at)
-    assert_allclose(found * np.maximum(at, 1), expected * np.maximum(at, 1), rtol=0, atol=5e-14)
-    small = (at < 1) & (np.abs(expected) > 1e-290)
-    assert_allclose(found[small], expected[small], rtol=5e-13)
-
-
-def test_transforms_of_many_wavenumbers_take_little_memory_beside_their_result() -> None:
-    """Thin layers need 40 000 wavenumbers: all orders of all at once took gigabytes."""
-    tracemalloc.start()
-    many = waves(shortest=10_000.0, longest=1.0, reach=3.0)
-    found = many.even_transforms(104), many.legendre_transform(np.ones(40))
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    kept = found[0].nbytes + 40 * found[1].nbytes
-    assert peak < 1.5 * kept

@@ -12,7 +12,6 @@ from contact_scenes import (
     A,
     grid,
     paraboloid,
-    push,
     scene,
 )
 
@@ -71,17 +70,6 @@ def test_forces_are_the_derivatives_of_the_energy(indenter):
     np.testing.assert_allclose(
         [forces.normal_force, *forces.moment], found, rtol=1e-4, atol=1e-6 * LOAD * A
     )
-
-
-def test_reciprocity_of_force_and_torque():
-    """A contact beside the origin that sticks: what a force turns, a torque shifts."""
-    beside = {**PRESS, **lean(0.0, 0.4), "torque": 0.0}
-    pushed = end(beside, push(0.1), friction=50.0)
-    turned = end(beside, twist(0.1), friction=50.0)
-    by_force = pushed.twist / pushed.tangential_force[0]
-    by_torque = turned.tangential_shift[0] / turned.torque
-    assert abs(by_force) > 0
-    assert by_force == pytest.approx(by_torque, rel=1e-6)
 
 
 @pytest.mark.parametrize("part", [0.99, 1.01])

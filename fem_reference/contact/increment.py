@@ -25,8 +25,8 @@ from contact_solver.residuals import (
     slip_direction,
 )
 from fem_reference.contact.augmented_lagrangian import repeat_passes
+from fem_reference.contact.contact_status import contact_status
 from fem_reference.contact.free_motion import free_motion
-from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_problem import PointProblem, PointSolution, solve_points
 from fem_reference.contact.point_state import PointState

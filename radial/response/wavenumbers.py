@@ -17,6 +17,7 @@ from radial.response.array_cache import (
     MAX_CACHED,
     cache_within_bytes,
 )
+from radial.response.bessel_functions import spherical_bessel_functions
 from radial.response.quadrature import unit_gauss
 
 POINTS = 16
@@ -26,10 +27,6 @@ PHASE = 6.0
 GROWTH = 3.0
 # Contacts whose radii differ by less than this ratio share their panels.
 SHARED = 1.25
-# The ratio of spherical Bessel functions at d orders above the argument x is exp(-√(2d / x)), and
-# each order reduces the error of the start by its square: by exp(-37) = 1e-16 over 7.3 x^(1/3)
-# orders.
-FORGOTTEN = 7.3
 MAX_AT_ONCE = 1 << 20  # numbers in a block of functions of the wavenumbers: 8 MiB
 
 
@@ -79,7 +76,7 @@ class Waves(NamedTuple):
         places = self.rule[0]
         found = np.empty((count, len(places)))
         for some in wave_blocks(len(places), 2 * count):
-            found[:, some] = spherical_bessel(2 * count - 1, places[some])[::2]
+            found[:, some] = spherical_bessel_functions(2 * count - 1, places[some])[::2]
         found[1::2] *= -1
         return found
 
@@ -104,7 +101,8 @@ class Waves(NamedTuple):
         turns = np.arange(count)[:, None] * np.pi / 2
         found = np.empty((count, len(half)))
         for some in wave_blocks(len(half), 2 * count):
-            found[:, some] = np.cos(turns + half[some]) * spherical_bessel(count, half[some])
+            part = half[some]
+            found[:, some] = np.cos(turns + part) * spherical_bessel_functions(count, part)
         return found
 
 
@@ -123,35 +121,6 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
     widest = PHASE / (1 + reach) / fineness
     first = floor(log(min(longest, widest)) / log(GROWTH))
     return Waves(first, widest, ceil(SHARED ** ceil(log(shortest / widest, SHARED))))
-
-
-def spherical_bessel(count: int, places: Array) -> Array:
-    """Compute the spherical Bessel functions j_n(x) of all orders n < count: (count, x).
-
-    Up to the order x, the recurrence (Abramowitz and Stegun 10.1.19)
-
-        j_n+1 = (2n + 1) / x j_n - j_n-1
-
-    is stable upwards. Beyond, the functions fall: their ratios follow from the same recurrence
-    downwards, which forgets its start.
-
-    count   number of orders
-    places  arguments x > 0, (x,)
-    """
-    found = np.empty((count, len(places)))
-    ratio = np.zeros(len(places))
-    for order in range(count + ceil(FORGOTTEN * count ** (1 / 3)), 0, -1):
-        ratio = np.where(places < order, places / (2 * order + 1 - places * ratio), 0.0)
-        if order < count:
-            found[order] = ratio
-    found[0] = np.sin(places) / places
-    if count > 1:
-        first = (found[0] - np.cos(places)) / places
-        found[1] = np.where(places < 1, found[1] * found[0], first)
-    for order in range(2, count):
-        upwards = (2 * order - 1) / places * found[order - 1] - found[order - 2]
-        found[order] = np.where(places < order, found[order] * found[order - 1], upwards)
-    return found
 
 
 def wave_blocks(count: int, size: int) -> Iterator[slice]:

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Array
+from radial.response.bessel_functions import bessel_functions
 from radial.response.bodies import (
     LONGEST_WAVE,
     least_wavenumber,
 )
 from radial.response.wavenumbers import wave_blocks, waves
-from radial.tangential.ring_energies import bessel_functions
 from semi_analytical.frf.depth import Descent, Level, in_plane_stresses, material_at
 from semi_analytical.frf.stack import Stack
 

@@ -12,11 +12,11 @@ from math import ceil
 import numpy as np
 
 from contact_scene.array_types import Array
+from radial.response.bessel_functions import bessel_functions
 from radial.response.wavenumbers import wave_blocks
 from radial.stress.layer_contribution import Complex, LayerContribution, bessel_of_order
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
-from radial.tangential.ring_energies import bessel_functions
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 

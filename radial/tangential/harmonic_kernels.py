@@ -8,7 +8,7 @@ Legendre function Q in its stable direction. Two other integrals follow:
     ∫₀^∞ J_{m-1}(kr) J_{m+1}(ks) dk = (2m-1) G_{m-1} - 2m (r/s) G_m
     ∫₀^∞ J_m(kr) J_{m+1}(ks) dk     = r^m / s^{m+1} for r < s, else 0
 
-The module `ring_energies` integrates these kernels over the rings.
+The module `hat_integrals` integrates these kernels over the rings.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Galerkin matrices of tractions on rings for every harmonic, with both bodies and their layers.
 
 p and q_r are ∝ cos mθ, q_θ ∝ sin mθ; for m = 0, q_θ is torsion. P = q_r - q_θ is transformed by
-J_{m-1}, Q = q_r + q_θ by J_{m+1}, p by J_m. `ring_energies` has the integrals of the half-space in
+J_{m-1}, Q = q_r + q_θ by J_{m+1}, p by J_m. `hat_integrals` has the integrals of the half-space in
 these variables. Layers add
 
     ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
@@ -19,7 +19,7 @@ from contact_scene.array_types import Array
 from radial.frictional.coupling import Coupling
 from radial.response.bodies import layer_responses
 from radial.response.wavenumbers import wave_blocks
-from radial.tangential.ring_energies import (
+from radial.tangential.hat_integrals import (
     WAVE_POINTS,
     half_space_integrals,
     hat_transforms,

@@ -87,7 +87,7 @@ def create_points(
     )
     radii = edge * np.array(over)
     scaled = tuple(x / over[-1] for x in over)
-    energies = ring_compliance(coupling, scaled, radii[-1], highest)
+    compliance = ring_compliance(coupling, scaled, radii[-1], highest)
     v, weights = unit_gauss(POINTS)
     length = np.diff(radii)[:, None]
     r = radii[:-1, None] + length * v
@@ -103,8 +103,8 @@ def create_points(
     gap, areas = integral(r * indenter.initial_gap(r, 0.0)), integral(r)
     down, along = compliances(rig)
     by_all = np.pi * np.multiply.outer(areas, areas)
-    energies[0, 2, 2] += 2 * down * by_all
+    compliance[0, 2, 2] += 2 * down * by_all
     if highest:
         signs = np.array([[1.0, -1.0], [-1.0, 1.0]])  # u_r = cos θ and u_θ = -sin θ of a shift
-        energies[1, :2, :2] += along * np.multiply.outer(signs, by_all)
-    return ContactPoints(radii, energies, areas, integral(r * r), gap, circle)
+        compliance[1, :2, :2] += along * np.multiply.outer(signs, by_all)
+    return ContactPoints(radii, compliance, areas, integral(r * r), gap, circle)

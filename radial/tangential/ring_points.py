@@ -41,17 +41,17 @@ class ContactPoints:
     as the fast index. Vectors have the shape (3 n count,), with the components r, θ, z as the slow
     index.
 
-    radii     radii of the nodes (n,) [length]
-    energies  Galerkin matrices of the compliance, for angular harmonics up to J (J + 1, 3, 3, n, n)
-              [length^5/force]
-    weights   ∫ φ r dr of the nodes, for areas (n,) [length²]
-    arms      ∫ φ r² dr of the nodes, for torques (n,) [length³]
-    gap       ∫ φ f r dr of the nodes, with the undeformed gap f at first contact (n,) [length³]
-    circle    angles of the points on a ring: one angle, half a circle or the full circle
+    radii      radii of the nodes (n,) [length]
+    harmonics  Galerkin matrices of the compliance, for angular harmonics up to J
+               (J + 1, 3, 3, n, n) [length^5/force]
+    weights    ∫ φ r dr of the nodes, for areas (n,) [length²]
+    arms       ∫ φ r² dr of the nodes, for torques (n,) [length³]
+    gap        ∫ φ f r dr of the nodes, with the undeformed gap f at first contact (n,) [length³]
+    circle     angles of the points on a ring: one angle, half a circle or the full circle
     """
 
     radii: Array
-    energies: Array
+    harmonics: Array
     weights: Array
     arms: Array
     gap: Array
@@ -68,7 +68,7 @@ class ContactPoints:
     @property
     def highest(self) -> int:
         """Highest angular harmonic J by which tractions on a ring are represented."""
-        return len(self.energies) - 1
+        return len(self.harmonics) - 1
 
     @cached_property
     def angles(self) -> Array:
@@ -130,7 +130,7 @@ class ContactPoints:
     @cached_property
     def operator(self) -> RingOperator:
         """Compliance of all points: displacement times area by traction [length^5/force]."""
-        return RingOperator(self._harmonic_transform, self._harmonic_energies)
+        return RingOperator(self._harmonic_transform, self._harmonic_compliance)
 
     @cached_property
     def compliance(self) -> Array:
@@ -153,7 +153,7 @@ class ContactPoints:
         Here t are the tractions, u the displacements and s the roots of the areas.
         """
         units = 1 / np.sqrt(self.weights * (2 * np.pi / self.count))
-        scaled = self._harmonic_energies * units * units[:, None]
+        scaled = self._harmonic_compliance * units * units[:, None]
         return RingOperator(self._harmonic_transform, scaled)
 
     @cached_property
@@ -188,11 +188,11 @@ class ContactPoints:
         norms = np.sum(self._harmonic_transform**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
         back[has] = self._harmonic_transform[has] / norms[has, None]
-        energies = self.equal_compliance.matrices[..., :rings, :rings]
-        inverses = np.zeros_like(energies)
-        for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
+        compliances = self.equal_compliance.matrices[..., :rings, :rings]
+        inverses = np.zeros_like(compliances)
+        for parts, compliance, inverse in zip(has.T, compliances, inverses, strict=True):
             present, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
-            known = energy[np.ix_(present, present)].swapaxes(1, 2).reshape(n, n)
+            known = compliance[np.ix_(present, present)].swapaxes(1, 2).reshape(n, n)
             found = np.linalg.inv(known)
             found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
             inverse[np.ix_(present, present)] = found
@@ -205,13 +205,13 @@ class ContactPoints:
         return np.concatenate(self.circle.harmonic_matrices(self.highest), axis=1)
 
     @cached_property
-    def _harmonic_energies(self) -> Array:
+    def _harmonic_compliance(self) -> Array:
         """Galerkin compliances (families × (J + 1), 3, 3, n, n) times the norm of each harmonic:
         the integral π of cos² mθ over the circle, and 2π for the harmonics 0 and J."""
-        norms = np.full(len(self.energies), np.pi)
+        norms = np.full(len(self.harmonics), np.pi)
         norms[[0, -1]] = 2 * np.pi
         families = self._harmonic_transform.shape[1] // len(norms)
-        return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
+        return np.concatenate([norms[:, None, None, None, None] * self.harmonics] * families)
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:
@@ -219,7 +219,7 @@ class ContactPoints:
 
         Used as long as no tangential load acts.
         """
-        return replace(self, energies=self.energies[:1], circle=RingAngles.ONE)
+        return replace(self, harmonics=self.harmonics[:1], circle=RingAngles.ONE)
 
     def repeat_angles(self, field: Array) -> Array:
         """Repeat an axisymmetric field, known at one angle per ring, at all angles (…, n count).

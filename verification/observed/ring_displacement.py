@@ -22,8 +22,8 @@ import numpy as np
 
 from contact_scene import Scene
 from contact_scene.array_types import Field
+from radial.response.bessel_functions import bessel_functions
 from radial.response.wavenumbers import waves as wave_quadrature
-from radial.tangential.ring_energies import bessel_functions
 from semi_analytical.frf.response_matrix import surface_response
 
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an

@@ -1,7 +1,6 @@
 """Comparison of verification results with baselines, to detect changes between program versions.
 
-A baseline contains the accepted results of a case. `baseline` defines, reads and accepts baselines,
-`comparison` compares every number of a report with its recorded value, and `tolerances` has
-tolerances that follow the errors. A recorded number is no reference: a difference shows a change,
-not an error.
+A baseline contains the accepted results of a case. `baseline` defines, reads and accepts baselines
+and compares every number of a report with its recorded value. A recorded number is no reference: a
+difference shows a change, not an error.
 """

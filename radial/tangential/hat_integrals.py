@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import j0, j1
 
 from contact_scene.array_types import Array
+from radial.response.bessel_functions import bessel_functions
 from radial.response.quadrature import unit_gauss
 from radial.tangential.harmonic_kernels import equal_order_kernels
 
@@ -32,9 +32,6 @@ FAR = 9
 FAR_POINTS = 5
 WAVE_POINTS = 6
 CACHED = 8
-# The downward recurrence of Bessel functions starts at this number of orders above the highest one,
-# where J is negligible.
-BEYOND = 32
 
 
 class HalfSpaceIntegrals(NamedTuple):
@@ -161,29 +158,3 @@ def hat_transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Arra
         total[:, :-1] += part @ (1 - v)
         total[:, 1:] += part @ v
     return found
-
-
-def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """Yield the Bessel functions J_0, J_1, … J_M at given arguments, one array for each order.
-
-    The upward recurrence is used for orders below the argument. For other orders, ratios of
-    adjacent orders follow from the downward recurrence (Gautschi 1967).
-
-    highest  highest order M
-    at       arguments, at least 0 (any shape)
-    """
-    last, now = j0(at), j1(at)
-    yield last
-    if highest:
-        yield now
-    near = at < highest
-    small, safe = at[near], np.maximum(at, 1.0)
-    ratio, ratios = np.zeros_like(small), {}
-    for m in range(highest + BEYOND, 1, -1):
-        ratio = small / (2 * m - small * ratio)
-        if m <= highest:
-            ratios[m] = ratio
-    for m in range(2, highest + 1):
-        last, now = now, 2 * (m - 1) / safe * now - last
-        now[near] = np.where(small < m, ratios[m] * last[near], now[near])
-        yield now
