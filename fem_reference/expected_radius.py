@@ -20,6 +20,7 @@ from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.method import ContactMethod
 from fem_reference.history import solved_increments
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import ContactModel, outermost_modulus
@@ -62,7 +63,7 @@ def count_points(sections: Sequence[SectionMesh], path: Path, harmonics: int) ->
     path       tractions that the solve computes
     harmonics  highest angular harmonic of the discretisation
     """
-    rings = len(sections[0].radii[::2])
+    rings = len(sections[0].radii[:: ELEMENTS.degree])
     if path not in ANGULAR:
         return rings
     return rings * (2 * harmonics if path is Path.WHOLE_CIRCLE else harmonics + 1)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from contact_scene.machine import require_memory
+from fem_reference.mesh.element_order import ELEMENTS
 
 # Entries of both factors, divided by components × unknowns × log2(unknowns): without, and with
 # unknown pressures.
@@ -18,7 +19,8 @@ COPIES_OF_ELEMENTS = 8
 LIBRARIES = 85 << 20
 DRAWING = 60 << 20
 PART_IN_USE = 0.62
-NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and one centre
+# About one corner; the others of two sides and of the inside.
+NODES_PER_ELEMENT = ELEMENTS.degree**2
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
@@ -34,7 +36,7 @@ def required_bytes(elements: int, unknowns: int, components: int, with_pressure:
     """
     fill = FILL_WITH_PRESSURE if with_pressure else FILL
     entries = fill * components * unknowns * np.log2(max(unknowns, 2))
-    matrices = 8.0 * elements * (9 * components) ** 2
+    matrices = 8.0 * elements * ((ELEMENTS.degree + 1) ** 2 * components) ** 2
     return float(BYTES_PER_ENTRY * entries + COPIES_OF_ELEMENTS * matrices)
 
 

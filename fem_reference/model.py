@@ -80,7 +80,7 @@ class ContactModel:
     def radii(self) -> Field:
         """Radii of the surface nodes of the meshes in the contact zone (m,) [length].
 
-        Corner and midside nodes alternate.
+        An edge has further nodes between its corners.
         """
         section = next(section for section in self.sections if section is not None)
         return np.asarray(section.radii * self.scales.length)

@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from fem_reference.stress import SectionField
     from semi_analytical.frf.depth import Level
 
-RECOVERY = (
-    "stress at the 2 x 2 Gauss points, interpolated to the nodes of one material by cubic "
-    "polynomials; by linear ones, with the mean of both sides, between elements of unlike size"
-)
 NEAR = 5.0  # extent of the files in loaded radii; the mesh extends to hundreds
 SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded radii
 
@@ -46,6 +42,7 @@ class OnSection(BodyResponse):
         over the contact radius. Raises the errors of `fem_reference.stress.subsurface`.
         """
         from fem_reference.compliance.ring_edge import beyond_pressure
+        from fem_reference.mesh.element_order import ELEMENTS
         from fem_reference.stress import SurfaceTractions, subsurface
 
         state, asked = self.state, self.state.discretisation
@@ -82,7 +79,7 @@ class OnSection(BodyResponse):
                 "loaded_radius": radius,
                 "elements_per_radius": asked.elements_per_radius,
                 "edges": tractions.edges.tolist(),
-                "recovery": RECOVERY,
+                "recovery": ELEMENTS.recovery,
                 "written_to": reach,
                 "elements": len(section.cells[1]),
                 "elements_written": len(near.cells[1]),
@@ -136,6 +133,7 @@ def _section_points(field: SectionField) -> StressPoints:
     """
     halves = (0.0, pi)
     count = field.points.shape[1]
+    kind, cells = field.cells
     moved, stressed = [], []
     for theta in halves:
         side = cos(theta)
@@ -152,7 +150,7 @@ def _section_points(field: SectionField) -> StressPoints:
         np.concatenate(moved, axis=1),
         np.concatenate(stressed, axis=1),
         at_edge=nothing > 0,
-        cells=("quad9", np.concatenate([field.cells + k * count for k in range(len(halves))])),
+        cells=(kind, np.concatenate([cells + k * count for k in range(len(halves))])),
     )
 
 

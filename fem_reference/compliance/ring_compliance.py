@@ -8,6 +8,7 @@ from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.body_pair import coupling, outermost_beta
 from fem_reference.compliance.angular_grid import THETA, R, Z
 from fem_reference.compliance.gauss_points import (
+    DEGREE,
     POINTS_PER_EDGE,
     GaussPoints,
     gauss_points,
@@ -120,8 +121,8 @@ def ring_compliance(
     edge: Edge
     if isinstance(basis, GaussPoints):
         edge, reach = (
-            GaussEdge(float(nodes[2] - nodes[0]), power=model.power),
-            float(nodes[2 * (rings // POINTS_PER_EDGE)]),
+            GaussEdge(float(nodes[DEGREE] - nodes[0]), power=model.power),
+            float(nodes[DEGREE * (rings // POINTS_PER_EDGE)]),
         )
     else:
         edge = HatEdge(beyond_pressure(model.scene.body, model.scene.indenter))

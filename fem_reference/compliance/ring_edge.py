@@ -14,10 +14,10 @@ difference between friction limit and shear has the same form at the edge of the
 With shear q p towards the edge, coupled bodies have a pressure proportional to the distance to the
 power ½ + arctan(κ)/π with κ = β q (β: Dundurs' constant; Johnson 1985, section 5.5).
 
-At Gauss points (three per element) the squares of the values are fitted by a parabola in r²,
-without the last element. The part of the values that loads no node is removed before. The error of
-the radii is below 0.1 h (h: element size) for any position of the edge in an element, and for
-penalties between 1 and 10 000.
+At Gauss points the squares of the values are fitted by a parabola in r², without the last element.
+The part of the values that loads no node is removed before. The error of the radii is below 0.1 h
+(h: element size) for any position of the edge in an element, and for penalties between 1 and
+10 000.
 """
 
 from dataclasses import dataclass
@@ -29,6 +29,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask
 from contact_scene.body import Body
 from fem_reference.compliance.gauss_points import POINTS_PER_EDGE, loading_part
+from fem_reference.mesh.element_order import ELEMENTS
 
 Beyond = tuple[float, ...]
 
@@ -37,15 +38,6 @@ Beyond = tuple[float, ...]
 # has just passed has no pressure yet. The distance is therefore limited by `FURTHEST`.
 BEYOND = (0.02807, 1.00215, 0.12215, 0.01960)
 
-# Correction of these coefficients for square elements. Rows are powers of the ratio, columns powers
-# of Poisson's ratio. The correction is extrapolated from Hertz contacts with 36 and 72 elements per
-# contact radius, with an error of 3e-4.
-BY_ELEMENTS = (
-    (0.0173, -0.0439, -0.0072),
-    (-0.0019, 0.0013, 0.0011),
-    (-0.0400, 0.1039, 0.0294),
-    (-0.0103, 0.0235, 0.0361),
-)
 FURTHEST = 1.05
 
 # Increase of the distance x by shear towards the edge, over κ x². Sliding plane contacts of a
@@ -82,7 +74,7 @@ def beyond_pressure(*bodies: Body) -> Beyond:
     outermost = [body.elastic_materials[0] for body in bodies if body.deforms]
     gives = np.array([1.0 / m.plane_strain_modulus for m in outermost])
     ratios = np.polynomial.polynomial.polyvander([m.poisson_ratio for m in outermost], 2)
-    return tuple((BEYOND + np.array(BY_ELEMENTS) @ (gives @ ratios) / gives.sum()).tolist())
+    return tuple((BEYOND + np.array(ELEMENTS.beyond) @ (gives @ ratios) / gives.sum()).tolist())
 
 
 class Edge(Protocol):

@@ -22,6 +22,7 @@ from fem_reference.compliance.ring_edge import GaussEdge
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.point_state import PointState
 from fem_reference.memory import matrix_bytes, refuse_if_too_large
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.model import ContactModel
 from fem_reference.plan import ANGULAR, Path
 
@@ -130,7 +131,7 @@ def point_contact(
     refuse_if_too_large(matrix_bytes(len(rings.radii) * grid.points))
     springs = 0.0
     if penalty:
-        edge = float(model.radii[2] - model.radii[0])
+        edge = float(model.radii[ELEMENTS.degree] - model.radii[0])
         springs = 1 / penalty.stiffness(contact_modulus(model.scene), edge)
     compliance = PointCompliance(rings, grid, springs)
     friction = FRICTIONLESS

@@ -28,15 +28,14 @@ LIBRARIES = (np.__version__, scipy.__version__, skfem.__version__)
 class NodalCompliance:
     """Compliance of the surface nodes in the contact zone: displacement per generalised force.
 
-    The nodes are those of biquadratic elements (Q2). A generalised force is the integral of psi_i t
-    r dr, with t the amplitude of the traction and psi_i the quadratic trace function of the node.
-    It does not contain the factor 2 pi or pi of the angle. In plane strain it is the integral of
-    psi_i t dr on one half of the surface.
+    The nodes are those of the elements. A generalised force is the integral of psi_i t r dr, with t
+    the amplitude of the traction and psi_i the trace function of the node. It does not contain the
+    factor 2 pi or pi of the angle. In plane strain it is the integral of psi_i t dr on one half of
+    the surface.
 
     motion          harmonic n and components: (r, z) for n = 0, (theta) in torsion, else (r, theta,
                     z)
-    radii           radii of the nodes (m,); corners have even indices, midside nodes odd ones;
-                    radii[0] = 0
+    radii           radii of the nodes (m,), those of edges between corners; radii[0] = 0
     matrix          compliance (c, m, c, m) for c components, symmetric
     factorizations  number of sparse factorisations. A matrix from the cache counts too, so that the
                     cost of a scene does not depend on previous solves

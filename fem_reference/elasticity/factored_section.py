@@ -144,7 +144,7 @@ def _assemble_stiffness(
 def _add_pressure_unknowns(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Extend the stiffness matrix by three pressures in each nearly incompressible element.
+    """Extend the stiffness matrix by the pressures in each nearly incompressible element.
 
     The additional equations are volume strain = p / lambda, with Lamé's constant lambda. The
     pressures enter the displacement equations by the transposed matrix.
@@ -156,13 +156,13 @@ def _add_pressure_unknowns(
     columns = np.broadcast_to(dofs, volume.shape).ravel()
     shape = (numbering.pressure.size, first)
     expansion = coo_array(((volume * factor).ravel(), (rows, columns)), shape=shape)
-    softness = np.repeat(dilatation(section).compliance[mixed], 3)
+    softness = np.repeat(dilatation(section).compliance[mixed], numbering.pressure.shape[1])
     itself = coo_array((-softness, (np.arange(softness.size),) * 2))
     return block_array([[stiffness, expansion.T], [expansion, itself]], format="csr")
 
 
 def _element_unknowns(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """Return degrees of freedom and factors of nodal displacements (e, 9 c), components contiguous.
+    """Return degrees of freedom and factors of nodal displacements (e, m c), components contiguous.
     On the axis, where components are zero or depend on each other, factors differ from 1."""
     shape = (-1, basis.nelems)
     return (

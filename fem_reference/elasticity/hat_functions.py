@@ -1,9 +1,9 @@
 """Tractions that are linear in r between corner nodes: hat functions over the radius.
 
 A hat function is one at its corner node, zero at all others and linear in between. Displacements of
-the surface are quadratic on each element edge. Gap and slip are weighted with the hat functions of
-the tractions. There are then no more contact conditions than the displacements can meet. The
-pressure has no oscillations, and the matrix is symmetric.
+the surface are at least linear on each element edge. Gap and slip are weighted with the hat
+functions of the tractions. There are then no more contact conditions than the displacements can
+meet. The pressure has no oscillations, and the matrix is symmetric.
 """
 
 from abc import ABC, abstractmethod
@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from skfem import Basis, BilinearForm, ElementLineP1, ElementLineP2, LinearForm, MeshLine
+from skfem import Basis, BilinearForm, ElementLineP1, LinearForm, MeshLine
 
 from contact_scene.array_types import Field, Matrix
+from fem_reference.mesh.element_order import ELEMENTS
 
 # Order of the quadrature. It is exact for the products of basis functions, and accurate to
 # round-off for smooth gaps.
@@ -28,7 +29,7 @@ def product(hat: Any, trace: Any, w: Any) -> Any:
 
     In plane strain the integrand is φ ψ.
 
-    φ is a hat function of the tractions and ψ a quadratic trace function of the displacements. The
+    φ is a hat function of the tractions and ψ a trace function of the displacements. The
     integrals convert tractions at rings to forces on surface nodes.
 
     hat, trace  values of φ and ψ at the quadrature points
@@ -41,8 +42,8 @@ def product(hat: Any, trace: Any, w: Any) -> Any:
 class TractionBasis(ABC):
     """Basis functions φ_j of the radius whose sums represent the surface tractions, with integrals.
 
-    There is one function for each of n rings. ψ_i are the quadratic trace functions of the m
-    surface nodes of the displacement. In plane strain integrals are over dr, in place of r dr, on
+    There is one function for each of n rings. ψ_i are the trace functions of the m surface
+    nodes of the displacement. In plane strain integrals are over dr, in place of r dr, on
     one half of the surface.
 
     radii     radii of the rings, whose tractions are the unknowns (n,) [length]
@@ -100,10 +101,10 @@ def corners_under(nodes: Field, reach: float) -> int:
 
     Used to end the tractions at the rim of the indenter.
 
-    nodes  radii of corner and midside nodes, alternating; corners have the even indices [length]
+    nodes  radii of all nodes on the surface, the first and the last at corners [length]
     reach  outer radius [length]
     """
-    return int(np.count_nonzero(nodes[::2] <= reach * (1 + SAME)))
+    return int(np.count_nonzero(nodes[:: ELEMENTS.degree] <= reach * (1 + SAME)))
 
 
 def hats_on(nodes: Field, reach: float = np.inf, power: int = 1) -> Hats:
@@ -111,17 +112,17 @@ def hats_on(nodes: Field, reach: float = np.inf, power: int = 1) -> Hats:
 
     The last corner has half a hat function, because no traction acts beyond it.
 
-    nodes  radii of corner and midside nodes, alternating (m,) [length]
+    nodes  radii of all nodes on the surface, the first and the last at corners (m,) [length]
     reach  outer radius of the tractions; infinite for all nodes [length]
     power  power of r in the integrals: 1, and 0 in plane strain
     """
-    radii = nodes[::2][: corners_under(nodes, reach)]
+    radii = nodes[:: ELEMENTS.degree][: corners_under(nodes, reach)]
     hats = _hat_basis(radii)
-    traces = hats.with_element(ElementLineP2())
+    traces = hats.with_element(ELEMENTS.trace)
     outwards = np.argsort(traces.doflocs[0])
     products = np.zeros((len(nodes), len(radii)))
     products[: traces.N] = product.assemble(hats, traces, power=power).toarray()[outwards]
-    # The sum of all quadratic trace functions is 1, so that a column sum is the integral of a hat.
+    # The sum of all trace functions is 1, so that a column sum is the integral of a hat.
     arms = _integrate_with_hats(hats, lambda r: r, power)
     return Hats(radii, products, products.sum(axis=0), arms, power)
 

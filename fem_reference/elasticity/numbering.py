@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from skfem import Basis
 
 from fem_reference.elasticity.motion import Motion
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Indices = NDArray[np.int64]
@@ -30,7 +31,7 @@ class Numbering:
 
     dofs      degree of freedom of every displacement (c, n), for c components and n nodes
     factor    factor of every displacement (c, n)
-    pressure  degrees of freedom of the m elements whose pressure is unknown (m, 3); they have the
+    pressure  degrees of freedom of the m elements whose pressure is unknown (m, f); they have the
               last numbers
     order     unknowns in the order of elimination (u,); those of the contact zone are the last
     contact   number of unknowns that precede those of the contact zone in this order
@@ -67,7 +68,8 @@ def number_unknowns(
     moving = factor != 0.0
     moving[:, far] = False
     free = np.flatnonzero(moving & (dofs == np.arange(dofs.size).reshape(dofs.shape)))
-    pressure = factor.size + np.arange(3 * np.count_nonzero(mixed)).reshape(-1, 3)
+    count = len(ELEMENTS.pressures)
+    pressure = factor.size + np.arange(count * np.count_nonzero(mixed)).reshape(-1, count)
 
     elements = basis.element_dofs.T
     keys = _elimination_keys(section.points, section.quads, elements)
@@ -77,7 +79,7 @@ def number_unknowns(
     # A pressure depends only on the displacements of its element. It is eliminated after them,
     # except for those of the contact zone, which are not eliminated.
     inside = np.where(np.isin(elements, surface), -1, rank[elements]).max(axis=1)
-    places = np.concatenate([2 * rank[free % basis.N], np.repeat(2 * inside[mixed] + 1, 3)])
+    places = np.concatenate([2 * rank[free % basis.N], np.repeat(2 * inside[mixed] + 1, count)])
     order = np.concatenate([free, pressure.ravel()])[np.argsort(places, kind="stable")]
     contact = order.size - int(np.sum(np.isin(free % basis.N, surface)))
     return Numbering(dofs, factor, pressure, order, contact, factor.size + pressure.size)
@@ -91,7 +93,7 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
     The factors of the stiffness matrix then remain sparse.
 
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
-    elements       the 9 nodes of every element (e, 9)
+    elements       the m nodes of every element (e, m)
     """
     leaf = _number_leaves(points, quads)
     count = int(elements.max()) + 1

@@ -1,4 +1,4 @@
-"""Finite-element basis of the biquadratic displacements of a section.
+"""Finite-element basis of the displacements of a section.
 
 A field ∝ cos n theta or sin n theta has the derivatives u/r, u_,r and u_,z, and factors n.
 Integrals have the weight r. In plane strain the weight is 1, and u/r is replaced by 0: r and z are
@@ -9,12 +9,14 @@ then coordinates along and normal to the surface, and no field depends on the th
 from typing import Any
 
 import numpy as np
-from skfem import Basis, DiscreteField, ElementQuad2
+from skfem import Basis, DiscreteField
 
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.mesh.section_mesh import SectionMesh
 
-EXACT = 5
-"""Order of the quadrature with 3 x 3 Gauss points, which integrates every energy exactly."""
+EXACT = 2 * ELEMENTS.degree + 1
+"""Order of the quadrature that integrates every energy of rectangles exactly, with one Gauss point
+more in each direction than the degree of the displacements."""
 
 
 def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
@@ -27,7 +29,7 @@ def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
     section     mesh of the meridional section of a body
     quadrature  points and weights on the unit square; None for exact integration of the energy
     """
-    basis = Basis(section.mesh, ElementQuad2(), intorder=EXACT, quadrature=quadrature)
+    basis = Basis(section.mesh, ELEMENTS.element, intorder=EXACT, quadrature=quadrature)
     r, power = np.asarray(basis.global_coordinates())[0], section.outline.power
     basis.dx = basis.dx * r**power
     basis.basis = [

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from skfem import Basis
 
 from contact_scene.array_types import Field
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Components = tuple[int, ...]
@@ -57,13 +58,14 @@ def strains(u: Any, component: int, n: int) -> dict[str, Field]:
 def element_stiffness(
     basis: Basis, section: SectionMesh, harmonic: int, components: Components
 ) -> Field:
-    """Compute the stiffness matrices of all elements, shape (e, 9 c, 9 c) for c components.
+    """Compute the stiffness matrices of all elements, shape (e, m c, m c).
 
-    The 9 nodal values of a component are contiguous. The volume strain is projected onto linear
-    functions of an element (Q2-P1) in every material. This projection prevents locking of nearly
-    incompressible layers and is exact for quadratic displacements. Nearly incompressible elements
-    have no resistance to volume strain in this matrix, because their pressure is a separate
-    unknown.
+    There are c components, and m nodes of an element. The nodal values of a component are
+    contiguous. The volume strain is projected onto the pressure functions of the element (Q2-P1 for
+    biquadratic elements) in every material. This projection prevents locking of nearly
+    incompressible layers and is exact for displacements of the degree of the elements. Nearly
+    incompressible elements have no resistance to volume strain in this matrix, because their
+    pressure is a separate unknown.
 
     basis       finite-element basis of one displacement component
     section     mesh with the materials of the elements
@@ -85,11 +87,11 @@ def element_stiffness(
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """Compute the volume strain of the shape functions, as linear functions in each element.
+    """Compute the volume strain of the shape functions, as a polynomial in each element.
 
-    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for each of
-    the 9 shape functions of each of the c components. The projection onto linear functions prevents
-    locking of nearly incompressible materials.
+    The result (e, m c, f) contains the coefficients of f orthonormal pressure functions, for each
+    of the m shape functions of each of the c components. The projection onto these functions
+    prevents locking of nearly incompressible materials.
 
     basis       finite-element basis of one displacement component
     harmonic    angular harmonic n
@@ -101,20 +103,22 @@ def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
     """Evaluate the volume strain of the elements at given points in each element (e, q).
 
-    The volume strain is stored as linear functions in each element. Used to recover the stress at
+    The volume strain is stored as a polynomial in each element. Used to recover the stress at
     points other than those of the stiffness.
 
-    basis   displacement basis with which the volume strain was projected onto linear functions
+    basis   displacement basis with which the volume strain was projected
     points  displacement basis at whose q quadrature points the strain is evaluated
-    strain  coefficients of the 3 orthonormal linear functions of each element (e, 3)
+    strain  coefficients of the f orthonormal pressure functions of each element (e, f)
     """
-    return np.einsum("ep,epq->eq", strain, _orthonormal_functions(basis, _linear_functions(points)))
+    return np.einsum(
+        "ep,epq->eq", strain, _orthonormal_functions(basis, _pressure_functions(points))
+    )
 
 
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
-    """Map each strain, such as "rr", to its values for all shape functions (e, 9 c, q).
+    """Map each strain, such as "rr", to its values for all shape functions (e, m c, q).
 
-    There are c displacement components and q quadrature points. The 9 shape functions of a
+    There are c displacement components and q quadrature points. The m shape functions of a
     component are contiguous.
     """
     elements, points = basis.dx.shape
@@ -129,28 +133,28 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Compute projections of volume strains onto 3 orthonormal linear functions of an
-    element (e, 9 c, 3), which prevents locking of nearly incompressible materials."""
+    """Compute projections of volume strains onto f orthonormal pressure functions of an
+    element (e, m c, f), which prevents locking of nearly incompressible materials."""
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
     return np.asarray(
-        volume @ _orthonormal_functions(basis, _linear_functions(basis)).transpose(0, 2, 1)
+        volume @ _orthonormal_functions(basis, _pressure_functions(basis)).transpose(0, 2, 1)
     )
 
 
-def _linear_functions(basis: Basis) -> Field:
-    """Evaluate 1, r and z (e, 3, q) at quadrature points, from the middle of the element
-    in its size. The linear functions of scikit-fem are bilinear on quadrilaterals."""
+def _pressure_functions(basis: Basis) -> Field:
+    """Evaluate products of powers of r and z (e, f, q) at quadrature points, from the middle of the
+    element in its size. The polynomials of scikit-fem have other products on quadrilaterals."""
     points, corners = basis.global_coordinates(), basis.mesh.p[:, basis.mesh.t]
     middle, size = corners.mean(axis=1), np.ptp(corners, axis=1)
     r, z = (points - middle[..., None]) / size[..., None]
-    return np.stack([np.ones_like(r), r, z], axis=1)
+    return np.stack([r**i * z**j for i, j in ELEMENTS.pressures], axis=1)
 
 
-def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
-    """Transform 1, r and z at q points to orthonormal functions with the weight r (e, 3, q)."""
-    functions = _linear_functions(basis)
+def _orthonormal_functions(basis: Basis, values: Field) -> Field:
+    """Transform pressure functions at q points to orthonormal ones with the weight r (e, f, q)."""
+    functions = _pressure_functions(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
-    return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))
+    return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), values))
 
 
 @dataclass(frozen=True, eq=False)

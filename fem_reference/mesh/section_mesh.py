@@ -9,6 +9,7 @@ from skfem import MeshQuad
 
 from contact_scene.body import Body
 from contact_scene.solver_errors import SolverError
+from fem_reference.mesh.element_order import ELEMENTS
 from fem_reference.mesh.section_outline import (
     CONTACT_ZONE,
     SectionOutline,
@@ -87,16 +88,12 @@ class SectionMesh:
 
     @cached_property
     def radii(self) -> NDArray[np.float64]:
-        """Radii of the surface nodes in the contact zone (m,), corners and midsides alternating.
+        """Radii of the surface nodes in the contact zone (m,), corners and those between them.
 
         The unit of length is the contact radius.
         """
         r, z = self.points
-        corners = np.sort(r[(z == 0.0) & (r <= self.outline.zone)])
-        radii = np.empty(2 * corners.size - 1)
-        radii[::2] = corners
-        radii[1::2] = 0.5 * (corners[:-1] + corners[1:])
-        return radii
+        return ELEMENTS.nodes(np.sort(r[(z == 0.0) & (r <= self.outline.zone)]))
 
     def refined(self) -> "SectionMesh":
         """Return a finer mesh in which every element of this mesh is divided into 4 elements.

@@ -1,6 +1,7 @@
 """Outline of a section, common to all meshers: edges, interfaces and element sizes."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial
 from contact_scene.solver_errors import SolverError, UnsupportedScene
+from fem_reference.mesh.element_order import ELEMENTS
 
 GROWTH = 1.2
 """Ratio of the sizes of neighbouring elements outside the contact zone, if those of the zone have
@@ -21,8 +23,8 @@ CONTACT_ZONE = 1.1
 LARGEST_GROWTH = 1.35
 """Largest ratio of the sizes of neighbouring elements, for fewer than 12 elements per radius."""
 
-LAYER_ELEMENTS = 2
-"""Least number of elements across a layer. Two elements have five nodes. They suffice for bending
+LAYER_ELEMENTS = ceil(4 / ELEMENTS.degree)
+"""Least number of elements across a layer. They have at least five nodes, which suffice for bending
 and shear of a film under a load that varies over many thicknesses. Thicker layers have more."""
 
 SMALLEST_BOX = 2.0
@@ -168,16 +170,18 @@ def graded_lines(start: float, end: float, origin: float, size: float) -> NDArra
     """Compute the coordinates of graded mesh lines between two ends, both included.
 
     The sizes of neighbouring elements grow by about one factor with the distance from `origin`. Its
-    logarithm is proportional to the root of `size`, so that a refinement of the contact zone
-    refines all elements: quadratic elements whose size is a fraction s of their distance cause an
-    error ~ s^4 of the compliance, which falls like the error ~ size^2 of the contact. There are at
-    least LAYER_ELEMENTS elements.
+    logarithm is proportional to the k-th root of `size`, for elements of the degree k, so that a
+    refinement of the contact zone refines all elements: elements whose size is a fraction s of
+    their distance cause an error ~ s^2k of the compliance, which falls like the error ~ size^2 of
+    the contact. There are at least LAYER_ELEMENTS elements.
 
     start, end  coordinates of the first and the last line
     origin      coordinate at which elements have the size `size`; it may be outside of the interval
     size        element size at `origin`
     """
-    slope = min(np.log(LARGEST_GROWTH), np.log(GROWTH) * np.sqrt(size / GROWTH_SIZE))
+    slope = min(
+        np.log(LARGEST_GROWTH), np.log(GROWTH) * (size / GROWTH_SIZE) ** (1.0 / ELEMENTS.degree)
+    )
     reach = size * slope / np.expm1(slope)
     lower, upper = np.log(reach + slope * (np.array([start, end]) - origin)) / slope
     count = max(LAYER_ELEMENTS, int(np.ceil(upper - lower - 1e-9)))

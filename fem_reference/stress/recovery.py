@@ -1,9 +1,10 @@
 """Recovery of the stress at the nodes from the strains in the elements.
 
-Strains of biquadratic elements are most accurate at their 2 x 2 Gauss points (Barlow 1976). The
-stress is computed at these points, which are a grid in each material, and interpolated to the nodes
-by cubic polynomials in r and in z. The bilinear extrapolation from one element would have an error
-of h^2/12 times the second derivative of the stress.
+Strains of biquadratic elements are most accurate at their 2 x 2 Gauss points (Barlow 1976), those
+of another order at the places of its record. The stress is computed at these points, which are a
+grid in each material, and interpolated to the nodes by cubic polynomials in r and in z. The
+extrapolation from one biquadratic element would have an error of h^2/12 times the second derivative
+of the stress.
 
 Cubic polynomials do not cross a mesh line between elements of different growth, as near the edges
 of the tractions. The strains are less accurate there: they are extrapolated in each element, and a
@@ -16,7 +17,6 @@ interface is therefore preserved.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ from fem_reference.elasticity.weak_form import (
     volume_strain,
     volume_strain_at,
 )
+from fem_reference.mesh.element_order import ELEMENTS, lagrange_polynomials
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import LARGEST_GROWTH
 from fem_reference.scales import Scales
@@ -44,7 +45,8 @@ Indices = NDArray[np.int64]
 ORDER = ("rr", "tt", "zz", "tz", "rz", "rt")
 """Order of the stress components. At theta = 0 it is the order of CONVENTIONS."""
 
-GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
+GAUSS = np.array(ELEMENTS.strains)
+PER_ELEMENT = len(GAUSS)
 CUBIC = 4  # number of Gauss points that a polynomial interpolates
 # Ratio of the sizes of neighbouring elements up to which a polynomial crosses their common line:
 # that of graded elements, but for round-off errors.
@@ -59,11 +61,11 @@ class Recovery:
     points. Levels are the depths of the nodes of each material in turn.
 
     section, basis  mesh of rectangles, and basis of one displacement component
-    at              the same basis, evaluated at the 2 x 2 Gauss points
-    places          column and row of the Gauss points in their grid (2, e, 4)
+    at              the same basis, evaluated at the g Gauss points of every element
+    places          column and row of the Gauss points in their grid (2, e, g)
     across          matrix from the radii of the Gauss points to those of the nodes
     down            matrix from the depths of the Gauss points to the levels
-    cells           points of every element (e, 9)
+    cells           type of the cells, and the points of every cell
     node            node of every point (n,)
     material        index of the material of every point (n,)
     found           index of the radius and of the level of every point (2, n)
@@ -76,7 +78,7 @@ class Recovery:
     places: Indices
     across: csr_array
     down: csr_array
-    cells: Indices
+    cells: tuple[str, Indices]
     node: Indices
     material: Indices
     found: Indices
@@ -124,7 +126,7 @@ def recovery_of(section: SectionMesh) -> Recovery:
     """
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
     basis = displacement_basis(section)
-    at = displacement_basis(section, (np.stack([xi, eta]), np.full(4, 0.25)))
+    at = displacement_basis(section, (np.stack([xi, eta]), np.full(len(xi), 1 / len(xi))))
     count = len(section.outline.materials)
     key = basis.element_dofs.T * count + section.layer[:, None]
     unique, cells = np.unique(key, return_inverse=True)
@@ -149,7 +151,7 @@ def recovery_of(section: SectionMesh) -> Recovery:
         places,
         across,
         vstack([matrix for _, matrix in down]).tocsr(),
-        cells.reshape(key.shape),
+        (ELEMENTS.kind, np.concatenate(cells.reshape(key.shape)[:, list(ELEMENTS.cells)])),
         node,
         material,
         np.stack([column, level]),
@@ -172,7 +174,7 @@ def _interpolate_piece(lines: Field, start: float, end: float) -> tuple[Field, c
     lines) of the interpolation from the Gauss points between these two."""
     first, last = np.searchsorted(lines, (start, end))
     within = lines[first : last + 1]
-    nodes = np.sort(np.concatenate([within, 0.5 * (within[:-1] + within[1:])]))
+    nodes = ELEMENTS.nodes(within)
     known = _gauss_points(within)
     left = np.clip(np.searchsorted(known, nodes) - CUBIC // 2, 0, len(known) - CUBIC)
     growth = np.abs(np.diff(np.log(np.diff(within))))
@@ -181,9 +183,11 @@ def _interpolate_piece(lines: Field, start: float, end: float) -> tuple[Field, c
     elements = np.searchsorted(within, nodes) - 1, np.searchsorted(within, nodes, "right") - 1
     found = diags_array(1.0 - crossed) @ _lagrange_matrix(known, nodes, left, CUBIC)
     for element in elements:
-        points = 2 * np.clip(element, 0, len(within) - 2)
-        found = found + diags_array(0.5 * crossed) @ _lagrange_matrix(known, nodes, points, 2)
-    before, after = (csr_array((len(nodes), 2 * n)) for n in (first, len(lines) - 1 - last))
+        points = PER_ELEMENT * np.clip(element, 0, len(within) - 2)
+        by_element = _lagrange_matrix(known, nodes, points, PER_ELEMENT)
+        found = found + diags_array(0.5 * crossed) @ by_element
+    outside = (first, len(lines) - 1 - last)
+    before, after = (csr_array((len(nodes), PER_ELEMENT * n)) for n in outside)
     return nodes, hstack([before, found, after]).tocsr()
 
 
@@ -191,9 +195,6 @@ def _lagrange_matrix(known: Field, wanted: Field, left: Indices, points: int) ->
     """Create the matrix (wanted, known) of the polynomials through `points` known coordinates,
     the first of which has the index `left` (wanted,)."""
     chosen = left[:, None] + np.arange(points)
-    x = known[chosen]
-    weights = np.ones(x.shape)
-    for k, other in permutations(range(points), 2):
-        weights[:, k] *= (wanted - x[:, other]) / (x[:, k] - x[:, other])
+    weights = lagrange_polynomials(known[chosen], wanted)
     rows = np.repeat(np.arange(len(wanted)), points)
     return csr_array((weights.ravel(), (rows, chosen.ravel())), (len(wanted), len(known)))

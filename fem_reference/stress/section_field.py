@@ -48,13 +48,13 @@ class SectionField:
 
     points    positions r and z (2, n) [length]
     material  index of the material of every point (n,), 0 for the outermost layer
-    cells     points of every element (e, 9): corners, midsides, middle
+    cells     type of the cells that represent the elements in files, and the points of every cell
     parts     contributions of the angular harmonics, whose sum is the field
     """
 
     points: Field
     material: Indices
-    cells: Indices
+    cells: tuple[str, Indices]
     parts: tuple[Amplitude, ...]
 
     def displacement(self, theta: float = 0.0) -> Field:

@@ -16,6 +16,7 @@ from contact_scene.array_types import Field
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.weak_form import dilatation
+from fem_reference.mesh.element_order import ELEMENTS, lagrange_polynomials
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import CONTACT_ZONE
 from fem_reference.scales import Scales
@@ -167,7 +168,7 @@ def _create_load_points(
     length     unit of length of the section [length]
     """
     nodes = section.radii
-    corners = nodes[::2]
+    corners = nodes[:: ELEMENTS.degree]
     rings = tractions.radii / length
     last = min(corners[-1], max(rings[-1], tractions.edges.max(initial=0.0) / length))
     ends = np.unique(np.concatenate([corners[corners < last], rings[rings < last], [last]]))
@@ -178,7 +179,6 @@ def _create_load_points(
     element = np.clip(np.searchsorted(corners, r) - 1, 0, len(corners) - 2)
     at = (r - corners[element]) / (corners[element + 1] - corners[element])
     trace = np.zeros((len(nodes), len(r)))
-    point = np.arange(len(r))
-    for k, shape in enumerate(((1 - at) * (1 - 2 * at), 4 * at * (1 - at), at * (2 * at - 1))):
-        trace[2 * element + k, point] = shape
+    node = ELEMENTS.degree * element[:, None] + np.arange(len(ELEMENTS.places))
+    trace[node, np.arange(len(r))[:, None]] = lagrange_polynomials(ELEMENTS.places, at)
     return _LoadPoints(r, trace * weight)
