@@ -20,6 +20,7 @@ from error_scenes import cells, indented, size
 
 import slipstick as package
 from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
@@ -167,6 +168,24 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
         (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
         (error,) = stress_errors(state, field, [deepest], at_depths=True)
         assert error.status is expected, error.reason
+
+
+@pytest.mark.parametrize(("solver", "settings"), [("semi-analytical", cells(32)), ("radial", None)])
+@pytest.mark.parametrize("friction", [0.02, 0.9])
+def test_a_stress_by_shear_that_no_number_measures_is_marked(
+    solver: Any, settings: Any, friction: float
+) -> None:
+    """Pressing with friction: slip costs energy, whose error shows that of the shear. Where all
+    sticks, peak pressure and approach have small errors, although the shear scatters."""
+    posed = indented(0.018, 1e3, None, steel(0.45, 210e9), friction)
+    result = package.solve(posed, solver, settings)
+    state = state_of_result(result, None, stated_errors(result))
+    field = body_response(state).stress([0.3 * A])
+    found = [e for e in extremes(field) if e.measure == "max_shear"]
+    (error, *_) = stress_errors(state, field, found, at_depths=True)
+    slips = friction < 0.1
+    assert (error.status is ErrorStatus.ESTIMATED) == slips, error.reason
+    assert bool(error.parts.get("increments")) == slips
 
 
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -59,7 +60,7 @@ class LoadedBodies:
     no_root         reason why the tractions may not fall like the square root of the distance from
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
-    by_increments   increment error of the tractions relative to the tractions; None if not stated
+    by_increments   increment error of the tractions relative to the tractions; None if unknown
     by_map          the same for the points of a measured indenter; 0 for other shapes
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
@@ -252,7 +253,7 @@ def loaded_bodies(
         discretisation=getattr(source, "discretisation", None),
         no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
-        by_increments=None if errors is None else _relative_part(end, errors, "increments"),
+        by_increments=None if errors is None else _error_by_increments(end, errors, fields),
         by_map=None if errors is None else _relative_part(end, errors, "map"),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
@@ -263,30 +264,61 @@ def loaded_bodies(
     )
 
 
+def _error_by_increments(
+    end: State, errors: Mapping[str, StatedError], fields: Mapping[str, Field | None]
+) -> float | None:
+    """Estimate the relative error of the tractions that is due to the increments.
+
+    Shear changes peak pressure and approach little: their errors do not show that of the shear.
+    Shift, twist or dissipated energy show it. Under a ball that is pressed with friction and sticks
+    all over, there is none of them, and the error is unknown. Where the motion is undefined, at the
+    friction limit, the shear follows from the pressure.
+
+    end     scalars at the end of the increment
+    errors  stated errors of these scalars, by name
+    fields  tractions by name
+    """
+    found = _relative_part(end, errors, "increments")
+    sheared = any(np.any(f) for name, f in fields.items() if f is not None and name != "pressure")
+    if found is None or not sheared:
+        return found
+    undefined = end.tangential_shift is None or (end.torque is not None and end.twist is None)
+    turn = (end.twist or 0.0) * (end.contact_radius or 0.0)
+    motions = np.abs([*np.atleast_1d(0.0 if undefined else end.tangential_shift), turn])
+    if undefined or np.max(motions) > ROUNDING * abs(end.approach or 0.0):
+        return found
+    lost, energy = errors.get("dissipated_energy"), end.dissipated_energy or 0.0
+    if lost is None or lost.error is None or float(np.max(lost.error)) >= energy:
+        return None
+    return max(found, float(np.max(lost.parts.get("increments", 0.0))) / energy)
+
+
 def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) -> float | None:
     """Estimate the relative error of the tractions that is due to one cause, such as increments.
 
-    The estimate is the largest relative part of the errors of peak pressure, approach and
-    tangential shift. If the peak pressure has no error because it is infinite, the contact radius
+    The estimate is the largest relative part of the errors of peak pressure, approach, tangential
+    shift and twist. If the peak pressure has no error because it is infinite, the contact radius
     replaces it.
 
     end     scalars at the end of the increment
     errors  stated errors of these scalars, by name
     part    part of the errors
 
-    Returns None if the error of any of the three is unknown.
+    Returns None if the error of any of them is unknown.
     """
     peak = errors.get("peak_pressure")
     of_pressure = "contact_radius" if peak is None or peak.error is None else "peak_pressure"
+    approach = abs(end.approach or 0.0)
+    round_off = {"twist": ROUNDING * approach / (end.contact_radius or inf)}
     parts = []
-    for name in (of_pressure, "approach", "tangential_shift"):
+    for name in (of_pressure, "approach", "tangential_shift", "twist"):
         value, error = getattr(end, name), errors.get(name)
         if value is None or error is None or error.status is ErrorStatus.EXACT:
             continue
         if error.error is None:
             return None
         size = float(np.max(np.abs(value)))
-        if size > ROUNDING * abs(end.approach or 0.0):  # a round-off value has no relative error
+        if size > round_off.get(name, ROUNDING * approach):  # round-off has no relative error
             parts.append(float(np.max(error.parts.get(part, 0.0))) / size)
     return max(parts, default=0.0)
 

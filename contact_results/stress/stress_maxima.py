@@ -129,7 +129,10 @@ def stress_doubts(
     for extreme, error in zip(found, errors or (), strict=bool(errors)):
         if error.reason:
             groups.setdefault(error.reason, []).append(f"{extreme.measure} of {extreme.region}")
-    return tuple(f"? {', '.join(of)}: {reason}" for reason, of in groups.items())
+    return tuple(
+        f"? {'all' if len(of) == len(found) else ', '.join(of)}: {reason}"
+        for reason, of in groups.items()
+    )
 
 
 def maxima_columns(
