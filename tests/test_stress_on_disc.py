@@ -209,10 +209,12 @@ def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> N
         ("semi-analytical", SurfaceDiscretisation(cells=(12, 12))),
     ],
 )
+@pytest.mark.parametrize("strain", [0.0, -1e-4])
 def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
-    solver: str, sizes: SurfaceDiscretisation | None
+    solver: str, sizes: SurfaceDiscretisation | None, strain: float
 ) -> None:
-    """Largest at half the depth from the axis, far beyond the points next to the contact."""
+    """Largest at half the depth from the axis, far beyond the points next to the contact. A bulk
+    strain, whose stress is as large at any distance, does not change it."""
     steel = IsotropicMaterial(young_modulus=2e11, poisson_ratio=0.3)
     depth, force = 2e-3, 10.0  # of contacts with radii of 0.05 mm
     body = Body(material=steel, layers=(Layer(thickness=depth, material=steel),))
@@ -222,10 +224,13 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
         loading=(LoadStep(normal_force=force),),
     )
     state = state_of_result(slipstick.solve(scene, solver, sizes), 1).with_bodies_of(scene)
-    found = {(e.region, e.measure): e for e in extremes(body_response(state).stress())}
+    state = replace(state, strain=(strain, strain, 0.0) if strain else None)
+    field = body_response(state).stress()
+    found = {(e.region, e.measure): e for e in extremes(field)}
     shear = found["interface 1 above", "interface_shear"]
     # Boussinesq: 3 W / 2π · r z² / (r² + z²)^(5/2), at r = z / 2 (Johnson 1985, eq. 3.19).
     expected = 3 * force / (2 * np.pi * depth**2) * 0.5 / 1.25**2.5
     assert not shear.at_window_edge
+    assert np.max(np.hypot(field.points.x, field.points.y)) < 3 * depth
     assert_allclose(shear.value, expected, rtol=5e-3)
     assert_allclose(np.hypot(shear.x, shear.y), depth / 2, rtol=0.05)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import MEASURES, ON_INTERFACES, StressField, StressPoints
 from contact_scene import Body
 from contact_scene.array_types import Field
 from contact_scene.quantities.stated_error import Part
@@ -39,6 +39,15 @@ class BodyResponse(ABC):
     def body(self) -> Body:
         """Layers and base of the body in which the stress is computed."""
         return self.state.loaded_body(self.indenter)
+
+    @property
+    def decaying(self) -> Collection[str]:
+        """Names of the stress measures that decay far from the contact.
+
+        A bulk strain causes stress at any distance, but none on interfaces.
+        """
+        strained = self.state.strain is not None and not self.indenter
+        return ON_INTERFACES if strained else tuple(MEASURES)
 
     @abstractmethod
     def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:

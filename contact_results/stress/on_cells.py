@@ -5,7 +5,7 @@ The semi-analytical solver computes such tractions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, log, log1p
@@ -18,6 +18,7 @@ from contact_results.largest import index_of_largest
 from contact_results.stress.body_response import BodyResponse, are_layers_thin
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import (
+    MEASURES,
     FittedEdge,
     StressField,
     StressPoints,
@@ -326,7 +327,7 @@ class OnCells(BodyResponse):
             return field
         if self.section_only:
             return field
-        margin, far = MARGIN, _depths_at_edge(field)
+        margin, far = MARGIN, _depths_at_edge(field, MEASURES)
         if far and np.any(self.state.tractions.get("shear", 0.0)):
             with suppress(ResourceRefused):  # then the first window counts
                 beyond = below(far, WIDE_MARGIN, see_edge=False)
@@ -340,19 +341,17 @@ class OnCells(BodyResponse):
         """Add points beyond the window at depths whose largest stress lies at its edge.
 
         The shear at the interface of a thick layer is largest at about half its thickness from the
-        axis. The window grows until the largest stresses lie within it, see `CellWindow.widened`.
-        Nothing is added below a bulk strain, whose stress is largest at any distance.
+        axis. The window grows until the largest stresses that decay lie within it, see
+        `CellWindow.widened`.
 
         margin  smallest half width of the window in half extents of the contact
         """
         from semi_analytical.frf.stack import stack_of
         from semi_analytical.stress.strips import spread
 
-        if self.state.strain is not None and not self.indenter:
-            return field
         window = CellWindow.around_contact(self.state, self.indenter, margin)
         contact = max(window.grid.window) / 2
-        while far := _depths_at_edge(field):
+        while far := _depths_at_edge(field, self.decaying):
             half = [side / 2 for side in window.grid.window]
             if max(half) > spread(stack_of(window.body), contact, max(far)):
                 break
@@ -467,9 +466,13 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _depths_at_edge(field: StressField) -> list[float]:
-    """Return the depths of positive largest stresses at the edge of the window, downward."""
-    return sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
+def _depths_at_edge(field: StressField, measures: Collection[str]) -> list[float]:
+    """Return the depths of positive largest stresses at the edge of the window, downward.
+
+    measures  names of the stress measures that count
+    """
+    largest = [one for one in extremes(field) if one.measure in measures]
+    return sorted({one.depth for one in largest if one.at_window_edge and one.value > 0})
 
 
 def _stress_in_window(

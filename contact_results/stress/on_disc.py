@@ -92,8 +92,7 @@ class OnDisc(BodyResponse):
         """Add points beyond the section at depths whose largest stress lies at its outer end.
 
         The shear at the interface of a thick layer is largest at about half its thickness from the
-        axis. The reach grows until the largest stresses lie within it. Nothing is added below a
-        bulk strain, whose stress is largest at any distance.
+        axis. The reach grows until the largest stresses that decay lie within it.
 
         Returns the field, and the body with this reach.
         """
@@ -101,15 +100,17 @@ class OnDisc(BodyResponse):
         from semi_analytical.frf.stack import stack_of
         from semi_analytical.stress.strips import spread
 
-        if self.state.strain is not None and not self.indenter:
-            return field, body
         while True:
             points, ends = field.points, body.reach * body.parts.radius
             distance = np.hypot(points.x - body.centre, points.y)
             outer = points.at_edge & (distance >= (1 - 1e-9) * ends)
             outer &= points.depth != body.parts.deepest
             measures = points.measures
-            largest = [_index_of(one, points, measures) for one in extremes(field)]
+            largest = [
+                _index_of(one, points, measures)
+                for one in extremes(field)
+                if one.measure in self.decaying
+            ]
             far = {(float(points.depth[k]), int(points.material[k])) for k in largest if outer[k]}
             deepest = max((depth for depth, _ in far), default=0.0)
             if not far or ends > spread(stack_of(self.body), body.parts.radius, deepest):
