@@ -227,14 +227,23 @@ for folder in sys.argv[1:]:
 # Replaced text of the answers, its replacement, and a part of the message.
 REFUSED = [
     (r".*", "[" * 100_000, "answers.json is damaged: "),
-    (r"\"name\": \"stranger <b>\"", '"name": ""', "key solver.name: "),
+    (r"\"name\": \"stranger <b>\"", '"name": ""', "key solver.name: got an empty text"),
+    (
+        r"\"name\": \"stranger <b>\"",
+        '"name": "x", "claimed_orders": {"presure": 2}',
+        "claimed order of 'presure': no such quantity; asked here: approach",
+    ),
     (r"\"case_version\": \"\w*\"", '"case_version": "old"', "for version old of hertz_point"),
     (r"\"h\": 4.5e-06", '"h": null', "key levels[1].h: got a NoneType"),
     (r"\"h\": 4.5e-06", '"h": -1', "level 1: h is -1.0, expected a positive length"),
     (r"\"load_step\": 1, \"value\": [\d.e-]+", '"load_step": 2, "value": 1', "is not asked"),
     (r"\"contact_radius\"", '"approach"', "approach of step 1 twice"),
     (r"\"contact_radius\"", '"radius"', "('radius', 1) is not asked; asked: ('approach', 1)"),
-    (r"\"value\": [\d.e-]+", '"value": "8 um"', "key levels[1].numbers[1].value"),
+    (
+        r"\"value\": [\d.e-]+",
+        '"value": "8 um"',
+        'numbers[1].value: got "8 um", expected a valid number',
+    ),
     (r"\"value\": [\d.e-]+", '"value": true', "key levels[1].numbers[1].value"),
     (r"\"value\": [\d.e-]+", '"value": NaN', "key levels[1].numbers[1].value"),
     (r"\"value\": [\d.e-]+", '"value": null', "nothing is answered"),
@@ -259,6 +268,12 @@ def test_answers_in_a_file_are_refused_by_name(
     file.write_text(text)
     assert slipstick("judge", filled) == 2
     assert said in " ".join(capsys.readouterr().err.split())
+
+
+def test_answers_with_a_byte_order_mark_are_read(filled: Path) -> None:
+    file = filled / "answers.json"
+    file.write_text(file.read_text(), encoding="utf-8-sig")
+    assert slipstick("judge", filled) == 0
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,6 +1,7 @@
 """Files that contain one record as JSON: one clear message for an invalid file, equal bytes."""
 
 import json
+from codecs import BOM_UTF8
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,6 +14,8 @@ from contact_scene.reading.scene_error import dotted_key, shown
 R = TypeVar("R", bound=Description)
 # Start of pydantic's message about a value of another kind or size.
 INVALID = "Input should be "
+# Names that pydantic adds to the key of a number that may be a list as well.
+ALTERNATIVES = ("float", "tuple[float, ...]")
 
 
 def record_text(record: Description) -> str:
@@ -46,7 +49,7 @@ def read_record(
     if path.exists() and not path.is_file():
         raise refused(f"{what} {path} is not a regular file; {remedy}")
     try:
-        return model.model_validate_json(path.read_bytes())
+        return model.model_validate_json(path.read_bytes().removeprefix(BOM_UTF8))
     except OSError as error:
         raise refused(f"{what} {path} cannot be read: {error.strerror}; {remedy}") from error
     except ValidationError as error:
@@ -57,9 +60,13 @@ def first_mistake(error: ValidationError) -> str:
     """Describe the first mistake of an invalid record by its key, received and expected value."""
     first = error.errors(include_url=False)[0]
     kind, message = first["type"], first["msg"].removeprefix("Value error, ")
-    sentences = {"missing": "the key is missing", "extra_forbidden": "unknown key"}
+    sentences = {
+        "missing": "the key is missing",
+        "extra_forbidden": "unknown key",
+        "string_too_short": "got an empty text",
+    }
     sentence = sentences.get(kind, message.replace("Invalid JSON: ", "got no JSON: "))
     if message.startswith(INVALID):
         sentence = f"got {shown(first['input'])}, expected {message.removeprefix(INVALID)}"
-    key = dotted_key(first["loc"])
+    key = dotted_key(tuple(part for part in first["loc"] if part not in ALTERNATIVES))
     return f"key {key}: {sentence}" if key else sentence

@@ -487,7 +487,12 @@ def judged(
     answers  one answer for each refinement level
     grade    accuracy class that all errors must meet; None: the class that the code claims, else
              the default class of each quantity
+
+    Raises Refused for a claimed order of a quantity that no challenge requires.
     """
+    if unknown := sorted(solver.claimed_orders.keys() - _known_quantities()):
+        asked = ", ".join(sorted({one.quantity for one in challenge.asked}))
+        raise Refused(f"claimed order of {unknown[0]!r}: no such quantity; asked here: {asked}")
     rows = tuple(rows_of(challenge, solver, answers, grade))
     return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))
 
