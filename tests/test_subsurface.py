@@ -88,12 +88,14 @@ def test_closed_form_carries_the_traction_at_the_surface():
     np.testing.assert_allclose(beside[5:8], 0, atol=1e-15)
 
 
-def test_closed_form_moves_the_surface_like_the_surface_coefficients():
+@pytest.mark.parametrize("cell", [(0, 0), (1, 0), (0, 1), (2, 1)])
+def test_closed_form_moves_the_surface_like_the_surface_coefficients(cell):
+    """Two closed forms: of the displacement at any depth, and of the surface alone."""
     surface = HalfSpaceCoefficients((DX, DY), (3, 2), 1.7, 0.3)
-    moved = under_cell(2 * DX, DY, 0.0, 0.3)[:3]
-    xx, yy, zz, xy, zx, zy = (surface[name][2, 1] for name in ("xx", "yy", "zz", "xy", "zx", "zy"))
+    moved = under_cell(cell[0] * DX, cell[1] * DY, 0.0, 0.3)[:3]
+    xx, yy, zz, xy, zx, zy = (surface[name][cell] for name in ("xx", "yy", "zz", "xy", "zx", "zy"))
     expected = [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
-    np.testing.assert_allclose(moved, expected, rtol=1e-13)
+    np.testing.assert_allclose(moved, expected, rtol=1e-13, atol=1e-15)
 
 
 def scales(coefficients):
