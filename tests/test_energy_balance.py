@@ -127,7 +127,7 @@ def test_what_finite_increments_leave_uncertain_covers_what_they_miss(then):
         described = coupled_scenes.scene(*steps[: 1 + bool(then)], body=bulk(), friction=0.3)
         return solve(described, grid(24), 1e-7).increments[-1]
 
-    few, many = end(6), end(32)
+    few, many = end(6), end(20)
     missed = abs(few.dissipated_energy - many.dissipated_energy)
     assert 0.05 * few.dissipation_uncertainty < missed < few.dissipation_uncertainty
     assert many.dissipation_uncertainty < 0.3 * few.dissipation_uncertainty

@@ -143,11 +143,10 @@ PRESS_AND_PUSH: tuple[dict[str, Any], ...] = (
 )
 
 
-def solved_on_elements(
-    *loading: dict[str, Any], method: Method = Method.COMPLEMENTARITY, **changes: Any
-) -> Any:
+def solved_on_elements(*loading: dict[str, Any], **changes: Any) -> Any:
     scene = Scene.model_validate(document(*loading, **changes))
-    return fem_reference.solve(scene, FiniteElementDiscretisation(elements_per_radius=16), method)
+    mesh = FiniteElementDiscretisation(elements_per_radius=16)
+    return fem_reference.solve(scene, mesh, Method.COMPLEMENTARITY)
 
 
 @pytest.mark.parametrize("solve", [solved, solved_on_elements])
