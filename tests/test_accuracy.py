@@ -151,8 +151,8 @@ MET = {
     "hertz, 0.1 %": (on_cells(scene(PRESS)), "0.1%", HERTZ),
     **{f"elements, {law}": (by_elements(law), "0.5%", HERTZ) for law in Method},
     "rings, pressed": (by_rings(PRESS), "1%", None),
-    "rings, pushed": (by_rings(PRESS, push(0.6)), "1%", None),
-    "partial slip": (on_cells(LOOP), "1%, dissipated_energy 1%", {"tangential_shift": LEFT}),
+    "rings, pushed": (by_rings(PRESS, push(0.6)), "2%", None),
+    "partial slip": (on_cells(LOOP), "3%, dissipated_energy 3%", {"tangential_shift": LEFT}),
     "coated": (on_cells(COATED), "1%", None),
 }
 

@@ -33,7 +33,7 @@ def scene(*loading, body=None, friction=0.1, indenter=None):
     )
 
 
-def on_cells(contact, cells=32, symmetry=None, edge="off"):
+def on_cells(contact, cells=20, symmetry=None, edge="off"):
     grid, decided = SurfaceGrid((cells, cells), (1.2e-3, 1.2e-3)), plan(contact, edge=edge)
     if symmetry is not None:
         decided = replace(decided, symmetry=symmetry)
@@ -41,11 +41,11 @@ def on_cells(contact, cells=32, symmetry=None, edge="off"):
 
 
 def on_elements(contact):
-    return fem_reference.solve(contact, FiniteElementDiscretisation(elements_per_radius=16))
+    return fem_reference.solve(contact, FiniteElementDiscretisation(elements_per_radius=8))
 
 
 def on_rings(contact):
-    return radial.solve(contact, RadialDiscretisation(tolerance=1e-8))
+    return radial.solve(contact, RadialDiscretisation(rings=8, tolerance=1e-8))
 
 
 def equibiaxial(strain, increments=8):

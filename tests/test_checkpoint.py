@@ -3,6 +3,7 @@
 import hashlib
 import os
 import pickle
+import shutil
 import tracemalloc
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -192,10 +193,14 @@ def checkpoint(
     return CheckpointDirectory(directory / "checkpoint", identity, said.append)
 
 
+def keep_every_increment(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr("contact_results.directory.checkpoint.SHARE", np.inf)
+    patch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
+
+
 @pytest.fixture(autouse=True)
 def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("contact_results.directory.checkpoint.SHARE", np.inf)
-    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
+    keep_every_increment(monkeypatch)
 
 
 @pytest.mark.parametrize("name", SOLVES)
@@ -244,32 +249,44 @@ def forged(content: bytes) -> bytes:
     return b"\n".join([FORMAT, b"this solve", own, content])
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Path]:
+    """A result, and a folder with the checkpoint of its solve after every increment."""
+    folder = tmp_path_factory.mktemp("whole")
+    with pytest.MonkeyPatch.context() as patch:
+        keep_every_increment(patch)
+        return SOLVES["similar"](checkpoint(folder, [])), folder
+
+
 @pytest.mark.parametrize(
-    ("damage", "problem"),
+    ("number", "damage", "problem"),
     [
-        (lambda content: content[:-40] + bytes([content[-40] ^ 1]) + content[-39:], "is damaged"),
-        (lambda content: content[:-1], "is damaged"),
-        (lambda content: b"", "is not a checkpoint of this version"),
-        (lambda content: b"PK" + content, "is not a checkpoint of this version"),
-        (lambda content: content.replace(b"this solve", b"that solve", 1), "is of another scene"),
-        (lambda content: forged(pickle.dumps(1.0)), "contains no checkpoint"),
+        (2, lambda c: c[:-40] + bytes([c[-40] ^ 1]) + c[-39:], "is damaged"),
+        (2, lambda c: c[:-1], "is damaged"),
+        (2, lambda c: b"", "is not a checkpoint of this version"),
+        (2, lambda c: b"PK" + c, "is not a checkpoint of this version"),
+        (2, lambda c: c.replace(b"this solve", b"that solve", 1), "is of another scene"),
+        (0, lambda c: forged(pickle.dumps(1.0)), "contains no checkpoint"),
     ],
 )
-@pytest.mark.parametrize("number", [0, 2])
 def test_part_that_cannot_be_used_is_named_and_computed_again(
-    damage: Callable[[bytes], bytes], problem: str, number: int, tmp_path: Path
+    damage: Callable[[bytes], bytes],
+    problem: str,
+    number: int,
+    whole: tuple[Any, Path],
+    tmp_path: Path,
 ) -> None:
-    solve, said = SOLVES["similar"], []
-    store = checkpoint(tmp_path, said)
-    whole = solve(store)
+    result, folder = whole
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     path = tmp_path / "checkpoint" / f"part-{number:06d}"
     path.write_bytes(damage(path.read_bytes()))
+    said: list[str] = []
     store = checkpoint(tmp_path, said)
     last = store.last()
     assert (last.point.done if last else 0) == number
     assert str(path) in said[0]
     assert problem in said[0]
-    assert bits(whole.increments) == bits(solve(store).increments)
+    assert bits(result.increments) == bits(SOLVES["similar"](store).increments)
 
 
 @dataclass

@@ -22,7 +22,6 @@ from contact_scene import (
 from contact_scene.normal_form import normal_form
 from semi_analytical.frf.depth import Descent, Level
 from semi_analytical.frf.surface import half_space_scalars, scalars
-from verification.closed_forms.bonded_film import BondedFilm
 from verification.laws.limit_laws import apart
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -40,15 +39,6 @@ def scene(*layers: Layer) -> Scene:
 
 def bonded(thickness: float = 100e-6, material: IsotropicMaterial = HARD) -> Layer:
     return Layer(thickness=thickness, material=material, interface_stiffness=BOND)
-
-
-def test_a_rigid_bond_of_one_material_is_a_half_space() -> None:
-    """(1 - ν)/(Gk), and a bond of any stiffness below a thick film has no effect."""
-    k = np.array([0.01, 1.0, 60.0])
-    same = BondedFilm((2.0, 0.3), (2.0, 0.3), 0.7, np.inf, np.inf)
-    np.testing.assert_allclose(same.normal_response(k), 0.7 / (2 * k), rtol=1e-14)
-    thick = BondedFilm((5.0, 0.25), (2.0, 0.3), 0.7, 0.1, 0.02)
-    np.testing.assert_allclose(thick.normal_response(k[2:]), 0.75 / (5 * k[2:]), rtol=1e-14)
 
 
 def test_layers_merge_through_rigid_bonds_alone() -> None:

@@ -90,11 +90,13 @@ CASES = {
 }
 
 
-# Rings that follow the normal load have a moving edge, and no tangent.
-ON_RINGS = ("alike", "radial")
+# Rings that follow the normal load have a moving edge, and no tangent. A rig and a twist beside a
+# force enter all bodies alike.
+ONCE = "normal force after a push", "shift of an actuator", "force beside a twist"
 EVERY = [
-    *product(BODIES, SOLVERS[:2], CASES),
-    *((*ON_RINGS, name) for name in CASES if name != "normal force after a push"),
+    *product(("coated",), SOLVERS[:2], CASES),
+    *product(("alike",), SOLVERS[:2], [name for name in CASES if name not in ONCE]),
+    *(("alike", "radial", name) for name in ("gross slip", "torque", *ONCE[1:])),
     ("coated", "radial", "tangential force"),
 ]
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from cell_means import ellipse_means
 from contact_scenes import (
     APPROACH,
     LIMIT,
@@ -31,9 +30,6 @@ from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.kernels import PARTS
 from semi_analytical.operator.domain import ReducedDomain
 from verification.closed_forms.hertz import PointContact
-from verification.problems.problem import (
-    ShiftedGrid,
-)
 
 CELLS = 48
 WINDOW = 2.6 * A
@@ -48,23 +44,6 @@ def solved(of: Scene, edge: str = "last", grid: SurfaceGrid | None = None):
 
 def frictionless(*loading, indenter=None) -> Scene:
     return scene(*loading, friction=None, indenter=indenter)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_lie(seed):
-    """Root mean square of cell means, an eightieth of what it is with constant edge cells."""
-    offset = np.random.default_rng(seed).uniform(-0.5, 0.5, 2)
-    end = solved(
-        frictionless(PRESS), grid=ShiftedGrid((CELLS, CELLS), (WINDOW, WINDOW), tuple(offset))
-    ).steps[-1]
-    h = WINDOW / CELLS
-    centre = (CELLS - 1) / 2 - offset
-    exact = hertz().peak_pressure * ellipse_means(CELLS, (A / h, A / h), tuple(centre))
-    assert np.linalg.norm(end.pressure - exact) < 1.5e-4 * np.linalg.norm(exact)
-    assert end.contact_radius == pytest.approx(A, rel=5e-5)
-    assert end.approach == pytest.approx(APPROACH, rel=1e-5)
-    assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
-    assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=3e-5)
 
 
 def test_the_edge_on_a_stiff_film_is_where_rings_have_it():
@@ -121,41 +100,6 @@ def test_no_later_state_knows_of_the_correction():
 
 ALIKE = steel(poisson_ratio=0.0)  # then all slip is along the force
 EXACT = hertz(poisson_ratio=0.0)
-
-
-def pushed(*forces: float, edge: str = "last"):
-    """Under parts of the friction limit, one after the other."""
-    loading = PRESS, *({"tangential_force": (part * LIMIT, 0.0)} for part in forces)
-    of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
-    side = 2.4 * EXACT.contact_radius
-    return solved(of, edge, SurfaceGrid((CELLS, CELLS), (side, side)))
-
-
-def cattaneo(*parts: tuple[float, float]):
-    """Σ share p of contacts of these radii: (share of the friction limit, radius / a)."""
-    a = CELLS / 2.4
-    centre = ((CELLS - 1) / 2,) * 2
-    means = (s * r * ellipse_means(CELLS, (r * a, r * a), centre) for s, r in parts)
-    return MU * EXACT.peak_pressure * sum(means)
-
-
-@pytest.mark.parametrize(
-    ("forces", "parts"),
-    [
-        ((0.6,), ((1, 1), (-1, 0.4 ** (1 / 3)))),
-        ((0.3, 0.7), ((1, 1), (-1, 0.3 ** (1 / 3)))),
-        ((0.9, -0.5), ((-1, 1), (-1, 0.1 ** (1 / 3)), (2, 0.3 ** (1 / 3)))),
-        ((0.6, -0.6), ((-1, 1), (1, 0.4 ** (1 / 3)))),
-    ],
-    ids=["push", "push on", "turn round", "turn round all the way"],
-)
-def test_the_shear_of_cattaneo_is_right_to_a_few_ten_thousandths(forces, parts):
-    """So is the stick radius, on a grid that leaves 3e-2 and 5e-3 otherwise."""
-    end = pushed(*forces).steps[-1]
-    exact = cattaneo(*parts)
-    assert np.linalg.norm(end.shear - [exact, 0 * exact]) < 4e-4 * np.linalg.norm(exact)
-    assert end.stick_radius == pytest.approx(parts[-1][1] * EXACT.contact_radius, rel=1e-4)
-    assert end.tangential_force[0] == forces[-1] * LIMIT
 
 
 UNLOADED = {"normal_force": 0.6 * LOAD}

@@ -1,4 +1,4 @@
-"""Tests of the finite-element contact solver on points (r, θ): harmonics, matrices and refusals."""
+"""Tests of the finite-element solver on points (r, θ): harmonics, increments and refusals."""
 
 from dataclasses import replace
 from functools import cache
@@ -85,36 +85,6 @@ def test_harmonics_between_points_pass_through_the_point_values(grid):
     modes = grid.modes(grid.angles)
     found = np.einsum("fcrn,fcnk->crk", grid.amplitudes(values), modes)
     np.testing.assert_allclose(found, values, atol=1e-13)
-
-
-def tractions(compliance):
-    """Any that mirror symmetry allows (3, points)."""
-    t = np.random.default_rng(2).normal(size=(3, len(compliance.areas)))
-    if not compliance.grid.whole:
-        rings, _ = compliance.shape
-        forbidden = np.tile(~np.any(compliance.grid.sines, axis=0), rings - 1)
-        t[1, np.concatenate([[True], forbidden])] = 0.0
-    return t
-
-
-@pytest.mark.parametrize("springs", [0.0, 0.3])
-@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
-def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
-    compliance = contact(grid, springs).compliance
-    t = tractions(compliance)
-    u_t, u_z = compliance.displacement(t[2], t[:2])
-    found, given = (
-        np.stack([*compliance.vector_on_grid(v[:2]), compliance.scalar_on_grid(v[2])])[:, 1:]
-        for v in (np.stack([*u_t, u_z]), t)
-    )
-    rings = compliance.rings
-    loads = np.stack([*compliance.vector_on_grid(t[:2]), compliance.scalar_on_grid(t[2])])
-    weak = np.einsum(
-        "naibk,fbkn->fain", rings.harmonics[: grid.highest + 1], grid.amplitudes(loads)
-    )
-    by_harmonics = np.einsum("fain,fanj->aij", weak, grid.modes(grid.angles))
-    by_harmonics = (by_harmonics / rings.areas[:, None])[:, 1:] + springs * given
-    np.testing.assert_allclose(found, by_harmonics, atol=1e-12 * np.max(found))
 
 
 def test_singular_equations_are_an_increment_that_does_not_converge(monkeypatch):

@@ -3,7 +3,6 @@
 Every reader finds the fields, or names the option that stores them.
 """
 
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +11,6 @@ import pytest
 from contact_scenes import LOAD, PRESS, push, scene
 
 import slipstick
-from contact_results.directory.file_names import FIELDS
-from contact_results.files import stored_run
 from contact_results.result_files import write_result
 from contact_scene.quantities.increment import (
     SCALARS,
@@ -70,19 +67,3 @@ def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> No
         assert one.approach == other.approach
     with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--all-fields"):
         ends.increment(int(ENDS[1]) - 1)
-
-
-def test_a_damaged_file_is_refused_before_hdf5_reads_it(
-    directories: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Its library may raise any error, such as SystemError, or crash."""
-    _, ends = directories
-    content, rng = (ends / FIELDS).read_bytes(), np.random.default_rng(3)
-    shutil.copytree(ends, tmp_path, dirs_exist_ok=True)
-    assert slipstick.load(tmp_path).increments
-    monkeypatch.setattr(stored_run, "open_hdf5", None)
-    for place in rng.integers(len(content), size=300).tolist():
-        flipped = bytes([content[place] ^ int(rng.integers(1, 256))])
-        (tmp_path / FIELDS).write_bytes(content[:place] + flipped + content[place + 1 :])
-        with pytest.raises(ValueError, match=r"result\.h5 was changed or damaged.*; run again"):
-            slipstick.load(tmp_path)

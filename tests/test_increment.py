@@ -9,6 +9,7 @@ from contact_scenes import (
     scene,
 )
 from coupled_scenes import press
+from coupled_scenes import push as coupled_push
 from coupled_scenes import scene as coupled_scene
 
 from contact_scene.quantities.summary import ContactStatus
@@ -47,6 +48,14 @@ def test_a_loop_takes_few_products_on_any_cells():
     few, many = (np.mean(products(loop, cells)) for cells in (32, 128))
     assert few < 17
     assert many < 1.3**2 * few
+
+
+def test_a_coupled_increment_takes_few_products():
+    """Of three convolutions each; separate solvers in turns took 161."""
+    described = coupled_scene(press(increments=15), coupled_push(0.9, increments=20))
+    increments = solve(described, grid(64), TOLERANCE).increments
+    assert all(increment.halvings == 0 for increment in increments)
+    assert np.mean([increment.convolutions for increment in increments]) < 62
 
 
 def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():

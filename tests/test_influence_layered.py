@@ -120,56 +120,15 @@ HARD = {
 
 
 @pytest.mark.parametrize("stack", HARD.values(), ids=HARD)
-@pytest.mark.parametrize("cell", [(1, 0), (0, 2), (3, 5), (33, 4)])
-def test_other_cells_by_quadrature(stack, cell):
+def test_other_cells_by_quadrature(stack):
     sides, (nodes, weights) = (1.0, 0.7), leggauss(60)
-    coefficients = LayeredCoefficients(stack, sides, (40, 40))
-    x, y = (side * (at + nodes / 2) for at, side in zip(cell, sides, strict=True))
-    r, areas = np.hypot(x[:, None], y), 0.175 * weights[:, None] * weights
-    layers = remainder_table(stack, 60.0)(r.ravel()).reshape(4, *r.shape)
-    radial = half_space_response(stack.outer)[:, None, None] / r + layers
-    for integrand, name in ((radial[0], "zz"), (radial[3] * x[:, None] / r, "zx")):
-        error = abs(coefficients[name][cell] - np.sum(areas * integrand))
-        assert error < 1e-12 * own_cell(coefficients)
-
-
-G = 3.0
-NU = 0.3
-CELLS = {"square": (0.7, 0.7), "flat": (0.5, 1.6), "upright": (3.0, 0.4)}
-# Point solutions of Boussinesq and Cerruti (Johnson 1985, eqs 3.18 and 3.75), times 2 pi G.
-POINT = {
-    "zz": lambda x, y, r: (1 - NU) / r,
-    "xx": lambda x, y, r: (1 - NU) / r + NU * x * x / r**3,
-    "yy": lambda x, y, r: (1 - NU) / r + NU * y * y / r**3,
-    "xy": lambda x, y, r: NU * x * y / r**3,
-    "zx": lambda x, y, r: (0.5 - NU) * x / r**2,
-    "zy": lambda x, y, r: (0.5 - NU) * y / r**2,
-}
-# Quadrature leaves 1e-13 of the self coefficient, the closed forms a few units of round-off.
-QUADRATURE = 1e-10
-
-
-def point(component, x, y):
-    return POINT[component](x, y, np.hypot(x, y)) / (2 * np.pi * G)
-
-
-def coefficients(cell, shape=(6, 5), poisson_ratio=NU):
-    return HalfSpaceCoefficients(cell, shape, G, poisson_ratio)
-
-
-def by_gauss(component, cell, i, j):
-    """Integral over a cell that the observer is not in."""
-    nodes, weights = leggauss(200)
-    x = i * cell[0] - 0.5 * cell[0] * nodes[:, None]
-    y = j * cell[1] - 0.5 * cell[1] * nodes[None, :]
-    area = 0.25 * cell[0] * cell[1]
-    return area * np.sum(weights[:, None] * weights * point(component, x, y))
-
-
-@pytest.mark.parametrize("cell", CELLS.values(), ids=CELLS)
-@pytest.mark.parametrize("component", POINT)
-def test_coefficient_is_the_integral_of_the_point_solution(component, cell):
-    K = coefficients(cell)[component]
-    largest = np.max(np.abs(K))
-    for i, j in [(1, 0), (0, 1), (1, 1), (3, 2), (5, 4)]:
-        assert abs(K[i, j] - by_gauss(component, cell, i, j)) < QUADRATURE * largest
+    made, table = LayeredCoefficients(stack, sides, (40, 40)), remainder_table(stack, 60.0)
+    coefficients = {name: made[name] for name in ("zz", "xx", "yy", "zx")}
+    for cell in ((1, 0), (0, 2), (3, 5), (33, 4)):
+        x, y = (side * (at + nodes / 2) for at, side in zip(cell, sides, strict=True))
+        r, areas = np.hypot(x[:, None], y), 0.175 * weights[:, None] * weights
+        layers = table(r.ravel()).reshape(4, *r.shape)
+        radial = half_space_response(stack.outer)[:, None, None] / r + layers
+        for integrand, name in ((radial[0], "zz"), (radial[3] * x[:, None] / r, "zx")):
+            error = abs(coefficients[name][cell] - np.sum(areas * integrand))
+            assert error < 1e-12 * own_cell(coefficients)

@@ -1,18 +1,26 @@
 """Tests of the memory estimate: the peak memory of a run is known before the run."""
 
 import sys
+import tracemalloc
 from pathlib import Path
+from typing import Any
 
+import contact_scenes
 import pytest
 from command import outcome
+from contact_scenes import PRESS, RIGID_BALL, YOUNG, A, grid, steel
 from processes import run
 
 import radial
-from contact_scene import SceneFile, machine, read_scene_file
+from contact_results.stress import on_cells
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import OnCells
+from contact_scene import Body, Layer, SceneFile, machine, read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from radial.memory import estimated_bytes as radial_estimated_bytes
-from semi_analytical import discretise, plan
+from semi_analytical import discretise, plan, solve
 from semi_analytical.memory import estimated_bytes
+from semi_analytical.stress import field as stress_field
 
 WITHIN = 0.15
 SCENE_FILES = Path(__file__).resolve().parents[1] / "scenes"
@@ -191,3 +199,32 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
     described = read_scene_file(path).scene
     with pytest.raises(UnsupportedScene, match="times the thickness of the outermost"):
         radial_estimated_bytes(described, radial.plan(described))
+
+
+# ---- stress
+
+
+def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Fields of the whole volume. The estimate adds the numbers of the file to their peak."""
+    film = Layer(thickness=A, material=steel(young_modulus=2 * YOUNG))
+    body = Body(material=steel(), layers=(film,))
+    posed = contact_scenes.scene(PRESS, friction=None, indenter=RIGID_BALL, body=body)
+    state = state_of_result(solve(posed, grid(64), 1e-6), 1)
+    required: list[int] = []
+    monkeypatch.setattr(stress_field, "FIXED", 0)
+    monkeypatch.setattr(machine, "available_bytes", lambda: max(required, default=1 << 40))
+
+    def stress_in_volume() -> Any:
+        return OnCells(state, see_edge=False).stress(volume=True).volume
+
+    tracemalloc.start()
+    volume = stress_in_volume()
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    required.append(int(0.95 * peak))
+    with pytest.raises(ResourceRefused, match="Use fewer cells or depths"):
+        stress_in_volume()
+    required.append(int((1 + on_cells.WRITTEN / on_cells.COMPUTED) * peak))
+    assert stress_in_volume().stress.shape == volume.stress.shape

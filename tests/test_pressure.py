@@ -165,28 +165,6 @@ def test_a_plane_gap_is_closed_by_its_own_motion(problem, forced):
     np.testing.assert_allclose(found, motion, atol=1e-9)
 
 
-@given(carried(), st.booleans())
-def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(problem, forced):
-    rng, cells, target = problem
-    gap = np.where(cells, rng.random(POINTS), np.inf)
-    assume(touches(target, cells, forced=forced))
-    A = compliance(rng, POINTS)
-    of = problem_of(target, cells, forced=forced, matrix=A, gap=gap)
-    solution = solve_pressure(of, np.where(cells, 1.0, 0.0), TOLERANCE)
-    p = solution.pressure
-    approach, tilt_x, tilt_y = solution.motion
-    g = gap + A @ p - approach - tilt_x * Y - tilt_y * X
-    scale = max(abs(approach), abs(tilt_x), abs(tilt_y), 1.0)
-    assert np.all(p >= 0)
-    assert np.min(g) >= -1e-9 * scale
-    assert np.max(np.abs(g[p > 0])) <= 1e-6 * scale
-    np.testing.assert_allclose(sums(p)[1:], target[1:], atol=1e-10 * np.sum(p))
-    if forced:
-        assert np.sum(p) == pytest.approx(target[0], rel=1e-12)
-    else:
-        assert approach == 2.0
-
-
 @pytest.mark.parametrize(
     ("arm", "carried"), [(1.4, True), (1.49, True), (1.51, False), (9.0, False)]
 )

@@ -1,8 +1,7 @@
-"""Tests of the radial solver on points (r, θ): angular range, compliances and increments."""
+"""Tests of the radial solver on points (r, θ): angular range and increments."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -123,19 +122,6 @@ def alike() -> ContactPoints:
 def pressed() -> PointState:
     loads = Loads((0.0, None, None, RING_LOAD), (None, 0.0, 0.0, None))
     return solve_increment(alike(), LAW, loads, None, TOLERANCE)
-
-
-@pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
-def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int) -> None:
-    points = alike()
-    cos, sin = np.cos(harmonic * points.angles), np.sin(harmonic * points.angles)
-    ways = np.array([cos, sin, cos])
-    tractions = np.zeros((3, len(points.radii), points.count))
-    tractions[way] = points.radii[:, None] * ways[way]
-    moved = (points.compliance @ tractions.ravel()).reshape(tractions.shape)
-    exact = points.harmonics[harmonic, :, way] @ points.radii
-    exact = 2 * math.pi / points.count * exact[..., None] * ways[:, None]
-    assert_allclose(moved, exact, atol=1e-14)
 
 
 def test_a_first_guess_has_pressure_where_the_surfaces_overlap() -> None:

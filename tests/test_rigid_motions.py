@@ -1,21 +1,17 @@
-"""Tests of tilt and twist: laws that hold for any loads of the rotations."""
+"""Tests of tilt and twist: missed loads and a punch that tips over are refused."""
 
 import numpy as np
 import pytest
 from contact_scenes import (
-    APPROACH,
     INDENTERS,
     LIMIT,
     LOAD,
     PRESS,
-    RADIUS,
     A,
     grid,
-    paraboloid,
     scene,
 )
 
-from contact_scene import Ellipsoid
 from contact_scene.solver_errors import NotConverged
 from semi_analytical import (
     ContactNotResolved,
@@ -42,34 +38,6 @@ def lean(x, y=0.0):
 def twist(part, **more):
     """A torque in parts of that at which all slips."""
     return {"torque": part * SLIDING, **more}
-
-
-ELLIPSOID = Ellipsoid(radii=(RADIUS, 2 * RADIUS), material=paraboloid().material)
-
-
-@pytest.mark.parametrize(
-    "indenter", [paraboloid(), ELLIPSOID, PUNCH], ids=["ball", "ellipsoid", "punch"]
-)
-def test_forces_are_the_derivatives_of_the_energy(indenter):
-    """Work-conjugacy: W, M_x and M_y against differences of the elastic energy."""
-    at = np.array([APPROACH, 0.1 * A / RADIUS, 0.15 * A / RADIUS])
-    if indenter is PUNCH:
-        at[1:] *= 0.3
-
-    def state(motion):
-        step = {"approach": float(motion[0]), "tilt": tuple(map(float, motion[1:]))}
-        return end(step, friction=None, indenter=indenter)
-
-    forces = state(at)
-    found = []
-    for axis in range(3):
-        d = np.zeros(3)
-        d[axis] = 1e-3 * at[axis]
-        energies = [state(at + sign * d).elastic_energy for sign in (1, -1)]
-        found.append((energies[0] - energies[1]) / (2 * d[axis]))
-    np.testing.assert_allclose(
-        [forces.normal_force, *forces.moment], found, rtol=1e-4, atol=1e-6 * LOAD * A
-    )
 
 
 @pytest.mark.parametrize("part", [0.99, 1.01])

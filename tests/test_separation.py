@@ -13,7 +13,7 @@ from contact_scene.quantities.summary import ContactStatus
 
 ELEMENTS = FiniteElementDiscretisation(elements_per_radius=12)
 SOLVERS = {
-    "semi-analytical": SurfaceDiscretisation(cells=(48, 48)),
+    "semi-analytical": SurfaceDiscretisation(cells=(32, 32)),
     "fem-complementarity": ELEMENTS,
     "fem": ELEMENTS,
     "radial": None,

@@ -122,16 +122,6 @@ def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
         assert_allclose(found[:, inner], exact[:, inner], atol=allowed)
 
 
-@pytest.mark.parametrize(("depth", "layer"), [(0.2, 0), (0.5, 1), (2.0, 1)])
-def test_a_layer_of_the_same_material_is_none(depth: float, layer: int) -> None:
-    x, y = np.random.default_rng(2).uniform(-3, 3, (2, 30))
-    x[0], y[0] = ANYHOW.centre, 0.0
-    bare = SubsurfaceCircle(ANYHOW, Stack((), (G, NU)), 5, 5)
-    film = SubsurfaceCircle(ANYHOW, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
-    ours = film.compute_fields([Level(depth, layer)], x, y)
-    assert_allclose(ours, bare.compute_fields([Level(depth, 0)], x, y), atol=1e-5)
-
-
 def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
     """Displacement and what acts on the interface are the same from both sides."""
     film = SubsurfaceCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)

@@ -22,20 +22,6 @@ from verification.references import load_reference
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
-    rows = load_reference("coated_frictionless_paraboloid")["rows"]
-    alike = [row for row in rows if row["nu1"] == row["nu2"]]
-    assert len(alike) > 2
-    for row in alike:
-        chosen = {
-            name: [row[of]] for name, of in (("E1_over_E2",) * 2, ("h_over_aH",) * 2, ("nu", "nu1"))
-        }
-        (found,) = TABLES["ball"].rows(chosen)
-        for name in TABLES["ball"].quantities:
-            allowed = found[f"{name}_uncertainty"] + 2 * row["est_rel_error"] * row[name]
-            assert abs(found[name] - row[name]) <= allowed
-
-
 def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
     """2 |3 - 3.5| + 0.01 * 3 + 0.1."""
     found = {1: RowValues((3.0,), 0.01, (0.1,)), 2: RowValues((3.5,))}

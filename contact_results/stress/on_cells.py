@@ -467,10 +467,7 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
 
 
 def _depths_at_edge(field: StressField, measures: Collection[str]) -> list[float]:
-    """Return the depths of positive largest stresses at the edge of the window, downward.
-
-    measures  names of the stress measures that count
-    """
+    """Return the depths where a measure is largest at the edge of the window, and positive."""
     largest = [one for one in extremes(field) if one.measure in measures]
     return sorted({one.depth for one in largest if one.at_window_edge and one.value > 0})
 

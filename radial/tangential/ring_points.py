@@ -133,15 +133,6 @@ class ContactPoints:
         return RingOperator(self._harmonic_transform, self._harmonic_compliance)
 
     @cached_property
-    def compliance(self) -> Array:
-        """Compliance matrix of all points: displacement times area by unit traction.
-
-        The displacements and tractions have the components r, θ, z. The shape is
-        (3 n count, 3 n count) for n rings with `count` angles each, the unit is [length^5/force].
-        """
-        return self.operator.matrix
-
-    @cached_property
     def scale(self) -> UnequalAreas:
         """Conversion to points of equal area."""
         return UnequalAreas(self.areas)
