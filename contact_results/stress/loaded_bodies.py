@@ -282,10 +282,11 @@ def _error_by_increments(
     sheared = any(np.any(f) for name, f in fields.items() if f is not None and name != "pressure")
     if found is None or not sheared:
         return found
-    undefined = end.tangential_shift is None or (end.torque is not None and end.twist is None)
-    turn = (end.twist or 0.0) * (end.contact_radius or 0.0)
-    motions = np.abs([*np.atleast_1d(0.0 if undefined else end.tangential_shift), turn])
-    if undefined or np.max(motions) > ROUNDING * abs(end.approach or 0.0):
+    if end.tangential_shift is None or (end.torque is not None and end.twist is None):
+        return found
+    shift = float(np.max(np.abs(end.tangential_shift)))
+    turn = abs(end.twist or 0.0) * (end.contact_radius or 0.0)
+    if max(shift, turn) > ROUNDING * abs(end.approach or 0.0):
         return found
     lost, energy = errors.get("dissipated_energy"), end.dissipated_energy or 0.0
     if lost is None or lost.error is None or float(np.max(lost.error)) >= energy:
