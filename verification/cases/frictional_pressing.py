@@ -46,6 +46,7 @@ from verification.judging.declared_case import (
     ELEMENT_RADIUS,
     JUDGED_BY,
     PENALTY,
+    STICK_RADIUS,
     Drawing,
     Observable,
     RefinementLevels,
@@ -68,12 +69,7 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, convergence_chart, profile
-from verification.observed.ring_errors import (
-    approach,
-    at_radii,
-    contact_radius,
-    stick_radius,
-)
+from verification.observed.ring_errors import at_radii
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (
     COATED,
@@ -161,7 +157,7 @@ STICK_PART = Observable(
     "stick_radius",
     "stick radius over contact radius",
     "",
-    lambda result, *_: stick_radius(result) / contact_radius(result),
+    lambda result, *_: result.steps[-1].stick_radius / result.steps[-1].contact_radius,
     lambda exact: float(exact.stick_part),
 )
 
@@ -526,13 +522,13 @@ NO_SLIP_BALL = {0.0: (1.0887337, 1.1960963), 0.3: (1.0245802, 1.0539106)}
 
 def _factor_error(nu: float, bonded: Any, smooth: Any) -> float:
     factor = (1 - nu) * log(3 - 4 * nu) / (1 - 2 * nu)
-    return abs(approach(smooth) / approach(bonded) / factor - 1)
+    return abs(smooth.steps[-1].approach / bonded.steps[-1].approach / factor - 1)
 
 
 def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
     approach_factor, load_factor = NO_SLIP_BALL[nu]
     exact = HERTZ.approach * approach_factor / load_factor ** (2 / 3)
-    return abs((2 * approach(many) - approach(few)) / exact - 1)
+    return abs((2 * many.steps[-1].approach - few.steps[-1].approach) / exact - 1)
 
 
 def no_slip_indentation(level: Level = Level.QUICK) -> Case:
@@ -859,19 +855,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
     of_contacts = (
         Within(APPROACH, 1e-6, why),
         Within(CONTACT_RADIUS, 1e-6, why),
-        Within(
-            Observable(
-                "stick_radius",
-                "stick radius",
-                "m",
-                lambda result, *_: stick_radius(result),
-                lambda one: one.stick_part * one.contact_radius,
-                OVER_HERTZ_RADIUS,
-                scalar=("stick_radius", 0),
-            ),
-            1e-3,
-            why,
-        ),
+        Within(replace(STICK_RADIUS, over=OVER_HERTZ_RADIUS), 1e-3, why),
         Within(
             error_norm(
                 "mean_shear",

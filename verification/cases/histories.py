@@ -284,7 +284,6 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 # loading steps
-PRESSED = 1
 PUSHED = 2
 BACK = 3
 

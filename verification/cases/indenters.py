@@ -70,6 +70,7 @@ from verification.judging.declared_case import (
     with_edge_at,
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
+from verification.judging.field_errors import relative_pressure_error
 from verification.problems.indentation import (
     BALL,
     BARREL,
@@ -674,21 +675,6 @@ ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
-def _inner_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative pressure error of a flat punch within half its radius [1].
-
-    The pressure is infinite at the rim, where cells have no useful value.
-
-    result   result on cells
-    step     index of the load step
-    problem  problem with the exact pressure
-    """
-    x, y = result.grid.coordinates()
-    inside = np.hypot(x, y) < 0.5 * PUNCH_RADIUS
-    exact = problem.ends[step].pressure(x[inside], y[inside])
-    return float(np.max(np.abs(result.steps[step].pressure[inside] / exact - 1)))
-
-
 def _stiffness_difference(one: Any, other: Any) -> float:
     """Compute the largest relative difference of the stiffnesses of two flat punches [1].
 
@@ -740,6 +726,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         (TILTED,),
         PUNCH_RADIUS,
         "Galin's theorem; tilting stiffness (4/3) E* a³",
+        across=PUNCH_RADIUS,
         equations=(
             r"W = 2 E^* a \delta,\quad M = \tfrac{4}{3} E^* a^3 \varphi,\quad "
             r"p = \frac{W}{2 \pi a^2} \frac{1 + 3 \mathbf{e} \cdot \mathbf{r} / a^2}"
@@ -761,7 +748,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             error_norm(
                 "inner_pressure",
                 "largest |p - p_exact| / p_exact within half the radius",
-                _inner_error,
+                relative_pressure_error(0.0, 0.5),
                 "p_exact",
             ),
             part_of_side(1.5),
@@ -904,24 +891,6 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     )
 
 
-def _mid_pressure_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative pressure error of finite elements between apex and edge of a
-    cone [1].
-
-    The rings lie between 0.2 and 0.8 of the contact radius, because the pressure is infinite at the
-    apex and falls to zero at the edge.
-
-    result   finite element result
-    step     index of the load step
-    problem  problem with the exact pressure
-    """
-    end = result.steps[step]
-    part = end.radii / problem.radius
-    away = (part > 0.2) & (part < 0.8)
-    exact = problem.ends[step].pressure(end.radii[away])
-    return float(abs(end.pressure[away] / exact - 1).max())
-
-
 def fem_classical(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a cone and a flat punch by finite elements.
 
@@ -935,7 +904,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     between = error_norm(
         "pressure_of_cone",
         "largest error of the pressure over its exact value, from 0.2 to 0.8 of the radius",
-        _mid_pressure_error,
+        relative_pressure_error(0.2, 0.8),
         "the exact one",
     )
     of_cone = (

@@ -83,6 +83,27 @@ def pressure_l2(result: Any, step: int, problem: Problem) -> float:
     return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
 
 
+def relative_pressure_error(inner: float, outer: float) -> Callable[[Any, int, Problem], float]:
+    """Return the measure of the largest pressure error |p / p_exact - 1| between two radii [1].
+
+    The bounds exclude an infinite pressure at an apex or a rim, and the zero at a contact edge. The
+    points are cells, strips or rings.
+
+    inner, outer  bounds of the distance from the axis, over the contact radius
+    """
+
+    def measure(result: Any, step: int, problem: Problem) -> float:
+        end = result.steps[step]
+        on_cells = hasattr(result, "grid")
+        x, y = result.grid.coordinates() if on_cells else (end.radii, np.zeros_like(end.radii))
+        part = np.hypot(x, y) / problem.radius
+        judged = (part >= inner) & (part < outer)
+        exact = problem.on_surface(problem.ends[step].pressure, x[judged], y[judged])
+        return float(np.max(np.abs(end.pressure[judged] / exact - 1)))
+
+    return measure
+
+
 def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest pressure error of finite elements away from the contact edge, over p_H
     [1].
