@@ -63,7 +63,6 @@ from verification.judging.declared_case import (
     Observable,
     Refined,
     Row,
-    SizedRun,
     Within,
     because,
     case,
@@ -193,7 +192,7 @@ def coated_paraboloid(level: Level = Level.QUICK) -> Case:
         judged(study, of_study),
         judged(followed, orders),
         judged(shifted, (mean,)),
-        runs=bare.runs,
+        runs=bare.followed,
         quantities=tuple(
             compare_runs(
                 f"constant_of_{row.what.name}",
@@ -369,7 +368,7 @@ def layered_identities(level: Level = Level.QUICK) -> Case:
                 pressed(name, one, body),
                 exact_contact(body, Body(material=one.material, layers=one.layers)),
             ),
-            [SizedRun(Run(name, pressed(name, one, body), grid, problem=name), cells)],
+            [Run(name, pressed(name, one, body), grid, problem=name)],
         )
         for name, (one, body) in pairs.items()
     }

@@ -17,7 +17,7 @@ from contact_results.surface import surface_of
 from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.judging.case import OVER_ANGLES, Case, Level, Run
+from verification.judging.case import OVER_ANGLES, AnyRun, Case, Level, Run
 from verification.judging.declared_case import (
     APPROACH,
     ASKED,
@@ -37,7 +37,6 @@ from verification.judging.declared_case import (
     RefinementLevels,
     Reported,
     Row,
-    SizedRun,
     Within,
     at_stops,
     case,
@@ -285,15 +284,15 @@ def _closed_form_loop(exact: ExactLoop) -> tuple[np.ndarray, np.ndarray]:
 REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
-def shear_allowed(rung: SizedRun) -> float:
+def shear_allowed(run: AnyRun, _: float) -> float:
     """Return the accepted shear error of a run on cells, over the friction limit [1].
 
     The project has accuracy targets for 128 and 256 cells per side. For other numbers the target of
     128 cells is scaled by the convergence order 3/2.
 
-    rung  refinement level: run and number of cells per side
+    run  run with the number of cells per side
     """
-    return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
+    return REQUIRED_SHEAR.get(run.count, REQUIRED_SHEAR[128] * (128 / run.count) ** 1.5)
 
 
 def _cycle_rows() -> tuple[Row, ...]:
@@ -412,7 +411,7 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
         judged(grids, _cycle_rows()),
         charts=(
             lambda results: hysteresis_chart(
-                "fretting_hysteresis", results[grids.judged.run.label], problem.ends[-1]
+                "fretting_hysteresis", results[grids.judged.label], problem.ends[-1]
             ),
         ),
         no_order="the accuracy targets of the shear are for 128 and 256 cells; cattaneo_mindlin "
@@ -447,7 +446,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         uncertainty=0.005,
     )
     grid = square_grid(cells, 0.6e-3)
-    run = ladder(problem, [SizedRun(Run(cells_label(cells), problem.scene, grid), cells)])
+    run = ladder(problem, [Run(cells_label(cells), problem.scene, grid)])
 
     def reported(
         name: str, meaning: str, unit: str, read: Any, remark: str = "zero in the closed form"
@@ -488,7 +487,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     )
 
     def drawn(results: Mapping[str, Any]) -> Any:
-        return results[run.judged.run.label]
+        return results[run.judged.label]
 
     return case(
         "paper_fretting_loop",
@@ -587,7 +586,7 @@ def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption
     """
 
     def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[of.judged.run.label]
+        result = results[of.judged.label]
         end = result.steps[step - 1]
         along = LOOP.ends[-1].along(result)
         *_, exact = (known for found, known in along if found.step == step)

@@ -7,7 +7,7 @@ tilt the indenter or let it roll.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from math import pi, sqrt
 from types import SimpleNamespace
@@ -19,6 +19,7 @@ from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, LoadStep, P
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.hertz import PointContact, SphereContact
 from verification.judging.case import (
+    AnyRun,
     Case,
     Level,
     NotYetAsymptotic,
@@ -43,12 +44,13 @@ from verification.judging.declared_case import (
     PRESSURE_L2,
     PRESSURE_WITHIN,
     STAIRCASE,
+    TOLERANCE_ELEMENTS,
     Falls,
     Judged,
     Observable,
     Refined,
     RefinementLevels,
-    SizedRun,
+    ScaledTolerance,
     Within,
     because,
     case,
@@ -177,7 +179,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
                 grids,
                 "hertz_profile",
                 "Pressure next to y = 0",
-                f"Computed pressure on {grids.judged.run.label} cells, Hertz's pressure, and "
+                f"Computed pressure on {grids.judged.label} cells, Hertz's pressure, and "
                 "their difference, which is confined to the cells at the edge of the contact.",
                 "p / p₀",
                 HERTZ.peak_pressure,
@@ -280,21 +282,21 @@ UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.cont
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
-def on_smaller(figure: float, order: float) -> Callable[[SizedRun], float]:
+def on_smaller(figure: float, order: float) -> ScaledTolerance:
     """Create a tolerance that depends on the number of cells or elements in the contact after
     unloading.
 
     Grids and meshes are laid out for the larger contact before unloading, so that the smaller
-    contact has fewer cells. Returns a function from a refinement level to its tolerance.
+    contact has fewer cells.
 
     figure  tolerance at 128 × 128 cells, or at 64 elements per contact radius
     order   convergence order by which the tolerance is scaled
     """
 
-    def allowed(rung: SizedRun) -> float:
-        if isinstance(rung.run, Run):
-            return figure * (128 / (rung.count * SMALLER)) ** order
-        return scaled_tolerance(figure, order)(replace(rung, count=round(rung.count * SMALLER)))
+    def allowed(run: AnyRun, _: float) -> float:
+        inside = run.count * SMALLER
+        on_cells = isinstance(run, Run)
+        return figure * (128 / inside if on_cells else TOLERANCE_ELEMENTS / round(inside)) ** order
 
     return allowed
 
@@ -336,7 +338,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         Within(APPROACH, on_smaller(5e-5, 2), why),
         Within(
             CONTACT_RADIUS,
-            lambda rung: part_of_side(0.1)(rung) / SMALLER,
+            lambda *level: part_of_side(0.1)(*level) / SMALLER,
             "a tenth of a cell, as for hertz_point",
         ),
         Within(PEAK_PRESSURE, on_smaller(1.5e-4, 2), why),
@@ -346,7 +348,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         Within(APPROACH, on_smaller(1e-4, 2), because(2)),
         Within(
             CONTACT_RADIUS,
-            lambda rung: min(2e-3, on_smaller(5e-4, 1)(rung)),
+            lambda *level: min(2e-3, on_smaller(5e-4, 1)(*level)),
             "as for fem_hertz: the edge is known to 1/30 of an element",
         ),
         Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
@@ -497,7 +499,7 @@ def _penalty_parts(elements: int) -> tuple[Judged, Judged, Quantity]:
         "error_law",
         "error of the approach without augmentation, times k = c a/h",
         "",
-        springs.judged.run.label,
+        springs.judged.label,
         lambda result: error(result) * k,
         Reference(
             1 / pi,
@@ -756,7 +758,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         ),
     )
     grids = on_cells(problem, refinement(32, 128 if level is Level.QUICK else 256), PUNCH_WINDOW)
-    finest = grids.judged.run
+    finest = grids.judged
     assert isinstance(finest, Run)
     return case(
         "tilted_punch",
@@ -843,7 +845,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     def known(run: Run, **exact: Any) -> RefinementLevels:
         ends = (SimpleNamespace(**exact),)
         problem = Problem(run.scene, ends, HERTZ.contact_radius, source, ReferenceKind.IDENTITY)
-        return ladder(problem, [SizedRun(run, cells)])
+        return ladder(problem, [run])
 
     _, beside, given, *_ = runs
     return case(
@@ -923,7 +925,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
         Falls(APPROACH, 1.0, rim),
     )
     # On meshes coarser than 22 elements per radius the second term makes 0.8 of that order.
-    fine = replace(punches, followed=tuple(rung for rung in punches.rungs if rung.count >= 22))
+    fine = replace(punches, followed=tuple(run for run in punches.runs if run.count >= 22))
     of_fine = Falls(
         CENTRAL_PRESSURE,
         1.0,

@@ -514,10 +514,10 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
                 compared(
                     f"{name}_of_{pair.replace(' ', '_')}",
                     f"difference of elements from strips: {name.replace('_', ' ')}, relative",
-                    one.run,
-                    other.judged.run,
+                    one,
+                    other.judged,
                     partial(relative_difference, name, step),
-                    own[name](one) + more,
+                    own[name](one, of.radius) + more,
                     "sum of the tolerances of both solvers for half-spaces",
                     "strips, which share only the scene",
                     ReferenceKind.OTHER_SOLVER,

@@ -272,7 +272,7 @@ def profile(
     unit     unit of the ordinate, in SI
     drawn    fields to draw; default: the pressure at the end of the last step
     """
-    problem, run = ladder.problem, ladder.judged.run
+    problem, run = ladder.problem, ladder.judged
     fields = drawn or (PRESSURE,)
 
     def draw(results: Mapping[str, Any]) -> Chart:
@@ -332,7 +332,7 @@ def convergence(
     also    observables whose errors are drawn without an expected slope
     beside  further refinement levels with equal sizes, by the name of their curves
     """
-    cells = isinstance(ladder.judged.run, Run)
+    cells = isinstance(ladder.judged, Run)
     unit = ladder.problem.radius if cells else 1.0
     expected = {row.what.label: row for row in rows if isinstance(row, Falls)}
     ladders = {"": ladder} | {f", {of}": other for of, other in (beside or {}).items()}
@@ -348,7 +348,7 @@ def convergence(
             name,
             title,
             caption,
-            [rung.run.spacing / unit for rung in ladder.followed],
+            [run.spacing / unit for run in ladder.followed],
             found,
             {label: row.expected for label, row in expected.items()},
             f"{'cell' if cells else 'element'} side / contact radius",
