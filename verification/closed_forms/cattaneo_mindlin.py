@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
-    stress_by_hertz_shear,
+    stress_by_partial_slip,
 )
 
 Array = NDArray[np.float64]
@@ -349,11 +349,8 @@ class CycledContact:
         σ_T is the larger value of σ_xx at the two ends of the cycle. The tangential force acts
         along x.
         """
-        a, c = self.end.contact_radius, self.end.stick_radius
-        q0 = self.end.friction_coefficient * self.peak_pressure
-        sheared = stress_by_hertz_shear(x, a, q0, 0.0)
-        if c > 0:
-            sheared = sheared - stress_by_hertz_shear(x, c, q0 * c / a, 0.0)
+        a, q0 = self.end.contact_radius, self.end.friction_coefficient * self.peak_pressure
+        sheared = stress_by_partial_slip(x, a, self.end.stick_radius, q0, 0.0)
         return stress_by_hertz_pressure(x, a, self.peak_pressure, 0.0) + np.abs(sheared)
 
     @property

@@ -23,7 +23,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.quadrature import composite_gauss, unit_gauss
 
 Array = NDArray[np.float64]
 Compliance = Callable[[Array], Array]
@@ -238,6 +238,4 @@ def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
     equal = np.arange(doublings[-1] + step, limit, step)
     bounds = np.concatenate([[0.0], doublings, equal, [limit]])
     bounds = np.append(bounds[bounds < limit], limit)
-    points, weights = unit_gauss(PANEL_POINTS)
-    widths = np.diff(bounds)[:, None]
-    return (bounds[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
+    return composite_gauss(bounds, PANEL_POINTS)

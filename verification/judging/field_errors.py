@@ -44,9 +44,18 @@ def _exact_on_cells(result: Any, end: Any, exact: Callable[..., Field], problem:
     exact    exact field as a function of the distance from the axis, or of x and y
     problem  problem that the field belongs to
     """
+    if is_corrected(end):
+        return exact_means(result, exact, problem)
+    return problem.on_surface(exact, *result.grid.coordinates())
+
+
+def exact_means(result: Any, exact: Callable[..., Field], problem: Problem) -> Field:
+    """Compute the means (nx, ny) of an exact field over the cells of a result.
+
+    exact    exact field as a function of the distance from the axis, or of x and y
+    problem  problem that the field belongs to
+    """
     x, y = result.grid.coordinates()
-    if not is_corrected(end):
-        return problem.on_surface(exact, x, y)
     sides = np.full_like(x, result.grid.spacing[0]), np.full_like(x, result.grid.spacing[1])
     return cell_means(lambda x, y: problem.on_surface(exact, x, y), x, y, sides)
 
