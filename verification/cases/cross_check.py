@@ -26,7 +26,7 @@ from semi_analytical.frf.depth import Level as Depth
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import subsurface
 from verification.closed_forms.hertz import PointContact
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Look, Panel, curve, stacked
 from verification.judging.case import (
     OVER_ANGLES,
     OVER_RINGS,
@@ -398,12 +398,12 @@ def cross_check(level: Level = Level.QUICK) -> Case:
             ),
         ),
         charts=(
-            lambda results: Chart(
-                name="cross_check_profiles",
-                title="Tractions by both solvers",
-                caption="Pressure (left) and shear (right) on the line of the load for some of the "
+            lambda results: stacked(
+                "cross_check_profiles",
+                "Tractions by both solvers",
+                "Pressure (left) and shear (right) on the line of the load for some of the "
                 "contacts: finite elements in grey below cells.",
-                rows=tuple(one.panels(results) for one in (*chosen[:3], chosen[-1])),
+                *(one.panels(results) for one in (*chosen[:3], chosen[-1])),
             ),
         ),
         limits=(

@@ -16,7 +16,7 @@ import numpy as np
 from contact_results.surface import surface_of
 from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Chart, Look, Panel, curve, stacked
 from verification.judging.case import OVER_ANGLES, AnyRun, Case, Level, Run
 from verification.judging.declared_case import (
     APPROACH,
@@ -145,12 +145,12 @@ def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
             ),
         ),
     )
-    return Chart(
-        name=name,
-        title="Hysteresis loop",
-        caption="Tangential force against tangential shift, one point per increment. The area of "
+    return stacked(
+        name,
+        "Hysteresis loop",
+        "Tangential force against tangential shift, one point per increment. The area of "
         "the closed loop is the energy dissipated per cycle.",
-        rows=((panel,),),
+        panel,
     )
 
 
@@ -184,12 +184,12 @@ def loading_history_chart(result: Result) -> Chart:
         ),
         notes=tuple(marked),
     )
-    return Chart(
-        name="paper_figure_1",
-        title="Figure 1 of the paper: the loading history in a fretting loop",
-        caption="Tangential force over the friction limit against time, at constant normal force; "
+    return stacked(
+        "paper_figure_1",
+        "Figure 1 of the paper: the loading history in a fretting loop",
+        "Tangential force over the friction limit against time, at constant normal force; "
         "the letters mark the states whose tractions figure 2 shows.",
-        rows=((panel,),),
+        panel,
     )
 
 
@@ -233,23 +233,21 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
         ]
         bounds = [curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)]
         panels.append(
-            (
-                Panel(
-                    x_label="x / a" if step == max(BRANCHES) else "",
-                    y_label="qₓ / µp₀",
-                    curves=(*bounds, *grey, *colour),
-                    title=branch,
-                    height=1.4,
-                ),
+            Panel(
+                x_label="x / a" if step == max(BRANCHES) else "",
+                y_label="qₓ / µp₀",
+                curves=(*bounds, *grey, *colour),
+                title=branch,
+                height=1.4,
             )
         )
-    return Chart(
-        name="paper_figure_2",
-        title="Figure 2 of the paper: contact tractions in a fretting loop",
-        caption="Shear next to y = 0 over its largest possible value µp₀, in the states of "
+    return stacked(
+        "paper_figure_2",
+        "Figure 2 of the paper: contact tractions in a fretting loop",
+        "Shear next to y = 0 over its largest possible value µp₀, in the states of "
         "figure 1. The closed form is grey, as in the paper; the thin outer lines are the "
         "friction limit ± µp, which equals the pressure in these units.",
-        rows=tuple(panels),
+        *panels,
     )
 
 
@@ -323,14 +321,18 @@ def _cycle_rows() -> tuple[Row, ...]:
     amplitude_error = error_norm(
         "largest_slip_amplitude_error",
         "largest difference of half the range of slip in the contact",
-        lambda result, _, problem: problem.ends[-1].largest_slip_amplitude_error(result),
+        lambda result, _, problem: problem.ends[-1].largest_slip_error(
+            result, loop_cycle(result).slip_amplitude, 1
+        ),
         unit="m",
         over=OVER_LARGEST_SLIP,
     )
     distance_error = error_norm(
         "largest_slip_distance_error",
         "largest difference of the accumulated slip in the contact",
-        lambda result, _, problem: problem.ends[-1].largest_slip_distance_error(result),
+        lambda result, _, problem: problem.ends[-1].largest_slip_error(
+            result, result.steps[-1].slip_distance, 5
+        ),
         unit="m",
         over=OVER_LARGEST_WAY,
     )

@@ -21,7 +21,7 @@ from verification.convergence.observed_order import (
     error_line,
     order_text,
 )
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.judging.case import Run
 from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
 from verification.observed.ring_errors import SHOWN, at_radii
@@ -74,7 +74,7 @@ def convergence_chart(
         "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
         "lines. Dashed below: the expected slopes."
     )
-    return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
+    return stacked(name, title, f"{caption} {legend}", panel)
 
 
 def _error_curves(
@@ -191,9 +191,7 @@ def _with_difference(
     """Draw profiles, and computed minus exact values in a panel below."""
     above = Panel(x_label="", y_label=labels.y_label, curves=tuple(profiles), height=2.6)
     below = Panel(x_label=labels.x_label, y_label=f"Δ{labels.y_label}", curves=tuple(differences))
-    return Chart(
-        name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
-    )
+    return stacked(labels.name, labels.title, labels.caption, above, below)
 
 
 def radial_chart(

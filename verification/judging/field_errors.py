@@ -147,6 +147,16 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
     return ring_errors.relative_l1(end, end.shear_along_load, exact, problem.radius) / FRICTION
 
 
+def shear_error_of_loop(result: Any, found: Any, exact: Any) -> float:
+    """Compute the shear error Σ|q - q_exact| / Σµp of an increment of a fretting loop on cells [1].
+
+    found  increment of the result
+    exact  exact state of the contact, with the shear as a function of the distance from the axis
+    """
+    r = np.hypot(*result.grid.coordinates())
+    return norms.shear_error(shear_of(found), exact.shear(r), FRICTION * found.pressure)
+
+
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> Mask:
     """Select radii that lie inside the contact and not close to an edge of a stick zone.
 
