@@ -13,7 +13,6 @@ from surface_quadrature import normal_displacement, tangential_displacement
 
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases.frictional_pressing import stick_ratio
 from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
@@ -113,14 +112,6 @@ def test_paraboloid_on_a_coating_is_the_reference(row: dict) -> None:
     r = contact.contact_radius * np.array(row["r_over_a"])
     peak = 1.5 * load / np.pi
     np.testing.assert_allclose(contact.pressure(r) / peak, row["p_over_pH"], rtol=1e-12)
-
-
-BETA = 0.4 / 1.4  # ν = 0.3 under a rigid indenter
-
-
-@pytest.mark.parametrize(("friction", "ratio"), [(0.1, 0.2240), (0.2, 0.7334), (0.3, 0.9186)])
-def test_printed_values(friction, ratio):
-    assert stick_ratio(friction, BETA) == pytest.approx(ratio, abs=5e-5)
 
 
 LOAD = 0.8

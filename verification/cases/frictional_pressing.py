@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import atanh, exp, log
+from math import log
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipkm1
 
 from contact_scene import (
     RIGID,
@@ -98,40 +96,6 @@ from verification.problems.problem import (
 )
 from verification.quantities import relative_difference, shear_of
 
-# Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
-SMALLEST = -340.0
-LARGEST = -(2.0**-52)
-
-
-def stick_ratio(friction: float, dundurs_beta: float) -> float:
-    """Compute the ratio c/a of stick radius to contact radius for indentation with friction.
-
-    c/a lies between 0 (gross slip) and 1 (full stick). The solution neglects the effect of the
-    shear on the pressure (Goodman, Spence). A ratio that differs from 0 or 1 by less than double
-    precision is returned as 0 or 1.
-
-    friction      coefficient of friction µ > 0
-    dundurs_beta  Dundurs' second constant β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
-    """
-
-    def excess(log_c: float) -> float:
-        """Compute the difference of both sides of the equation for c/a; its zero is the solution.
-
-        The difference grows with c/a (c: stick radius, a: contact radius).
-
-        log_c  natural logarithm of c/a
-        """
-        c = exp(log_c)
-        # K of the modulus √(1 - c²), from its complementary parameter c².
-        return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))
-
-    if excess(SMALLEST) >= 0:
-        return 0.0
-    if excess(LARGEST) <= 0:
-        return 1.0
-    return exp(brentq(excess, SMALLEST, LARGEST, xtol=1e-16, rtol=1e-15))
-
-
 PRESSURE = error_norm(
     "pressure",
     "largest error of the pressure from {between} of the radius, over p_H",
@@ -152,7 +116,6 @@ SHEAR_AT_EDGE = error_norm(
 )
 
 
-ONE = "1"
 STICK_PART = Observable(
     "stick_radius",
     "stick radius over contact radius",
@@ -779,46 +742,6 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
     )
 
 
-@dataclass(frozen=True)
-class Goodman:
-    """Hold the exact answer of indentation with friction if the shear does not change the pressure.
-
-    stick_part  radius of the stick disc over the contact radius
-    """
-
-    stick_part: float
-
-
-def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Problem:
-    """Create the problem of a rigid ball that is pressed with friction on a nearly incompressible
-    body.
-
-    Shear and pressure are then weakly coupled, and Goodman's solution holds for the stick radius.
-    The coupling is measured by Dundurs' constant β = (1 - 2ν)/(2(1 - ν)).
-
-    title       title of the scene
-    nu          Poisson ratio ν of the half-space, close to 1/2
-    ratio       coefficient of friction over β
-    increments  number of increments
-    """
-    beta = (1 - 2 * nu) / (2 * (1 - nu))
-    scene = pressed(
-        title, rigid_ball(), half_space(nu), pressing(increments), friction=ratio * beta
-    )
-    return Problem(
-        scene,
-        (Goodman(stick_ratio(ratio * beta, beta)),),
-        HERTZ.contact_radius,
-        "Goodman 1962; Spence 1975: (a/2c) ln((a+c)/(a-c)) = (µ/β) K'(c/a)",
-        uncertainty=beta**2,
-        scales={ONE: 1.0},
-        equations=(
-            r"\frac{a}{2c} \ln\frac{a + c}{a - c} = \frac{\mu}{\beta} K'(c/a),\quad "
-            r"\beta = \frac{1 - 2\nu}{2 (1 - \nu)}",
-        ),
-    )
-
-
 # Radii where shear is not compared, over the contact radius: at the axis, beside the front.
 INNERMOST = 0.05
 BESIDE = 0.05
@@ -847,8 +770,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
     """Create the verification case of indentation with friction by the radial solver.
 
     Approach, contact radius, stick radius and shear are compared with tabulated solutions of
-    integral equations. For a nearly incompressible body the stick radius is compared with Goodman's
-    solution. All levels are equal.
+    integral equations. All levels are equal.
     """
     increments, rings = 64, 512  # twice the increments for contacts that also need twice on cells
     why = "accuracy target of the radial solver at these increments"
@@ -867,36 +789,19 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             why,
         ),
     )
-    # Nearly without coupling; the error of Goodman's solution is about β².
-    nu = 0.49
-    beta = (1 - 2 * nu) / (2 * (1 - nu))
-    of_goodman = Within(
-        replace(STICK_PART, name="stick_part", over=ONE),
-        1e-3,
-        f"accuracy target of the stick radius; {beta**2:.0e} is the error of Goodman's solution",
-    )
     return case(
         "radial_indentation",
         "Radial solver: indentation with friction",
         "The paper's ball, rigid, is pressed by 1 kN on half-spaces and on a coating that move "
         f"towards the axis below the ball, in {increments} increments, or twice that number "
         "where nearly all of the contact sticks, by the radial solver. The references are "
-        "solutions of integral equations over the radius. For weak coupling the stick radius is "
-        "Goodman's.",
+        "solutions of integral equations over the radius.",
         *(
             judged(
                 on_radii(one.problem(increments * one.increments // FEW), one.name, rings=rings),
                 of_contacts,
             )
             for one in (WEAK, STRONG, NO_POISSON_BALL, COATED)
-        ),
-        *(
-            judged(
-                on_radii(_goodman_problem(title, nu, ratio, increments), title, rings=rings),
-                (of_goodman,),
-            )
-            for ratio in (0.5, 1.0)
-            for title in [f"ν = {nu:g}, µ = {ratio:g} β"]
         ),
         no_order="judged at the increments of the case, not on several numbers of them",
         shows=("radial solver", "coated friction"),
