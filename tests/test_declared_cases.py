@@ -66,7 +66,6 @@ LONG = (
     "fem_far_field",
     "fem_hertz",
     "fem_indentation",
-    "fem_increments",
     "fem_partial_slip",
     "fem_torsion",
     "forced_effects",

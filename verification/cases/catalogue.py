@@ -88,7 +88,6 @@ MODULES = {
         "no_slip_indentation",
         "radial_indentation",
         "fem_indentation",
-        "fem_increments",
     ),
     "stress": (
         "subsurface_stress",

@@ -7,9 +7,10 @@ increments.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from math import log
 from typing import Any
 
@@ -30,13 +31,10 @@ from verification.judging.case import (
     Case,
     Followed,
     Level,
-    NotYetAsymptotic,
     Order,
     Refinement,
     Run,
-    SectionRun,
     compare_runs,
-    per_radius,
 )
 from verification.judging.declared_case import (
     APPROACH,
@@ -67,7 +65,6 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, convergence_chart, profile
-from verification.observed.ring_errors import at_radii
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (
     COATED,
@@ -229,90 +226,60 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     )
 
 
-def change(
+def _change(
+    runs: Sequence[AnyRun],
     of: Followed,
     meaning: str,
     difference: Callable[[Any, Any], float],
-    expected: float,
-    because: str,
-    not_yet: NotYetAsymptotic | None = None,
     name: str = "",
 ) -> Order:
-    """Declare the expected order at which the difference of two neighbouring refinement levels
-    falls.
+    """Declare that the difference of two runs falls with the first power of the increment.
 
-    Used where no exact solution is known: the difference falls with the order of the error. The
-    labels of the levels are added by `Refined.orders`.
+    Used where no exact solution is known: the difference falls with the order of the error.
 
+    runs        runs with more and more increments, coarse to fine
     of          quantity whose order is judged
     meaning     description of the difference
-    difference  function from the results of a coarse and a fine level to the difference
-    expected    expected exponent p of h^p
-    because     reason for the expected order
-    not_yet     allowance for levels that are too coarse for the theory
+    difference  function from the results of a run and the next one to the difference
     name        name of the verdict after `order_of_`; default: the name of the quantity
     """
-    name = f"order_of_{name or of.value.replace(' ', '_')}"
-    return Order(name, of, meaning, (), difference, expected, because, not_yet)
+    return Order(
+        f"order_of_{name or of.value}",
+        of,
+        meaning,
+        tuple(run.label for run in runs),
+        difference,
+        1.0,
+        "the direction of slip and the friction limit change during an increment, which takes both "
+        "at its end: the backward Euler rule",
+        refined=Refinement.INCREMENTS,
+        size=_increment_size,
+        apart=1,
+    )
 
 
-@dataclass(frozen=True)
-class Refined:
-    """Hold runs with more and more increments, coarse to fine.
+def _chart_of_changes(
+    runs: Sequence[AnyRun], orders: Sequence[Order], name: str, title: str, caption: str
+) -> Drawing:
+    """Return a function that draws the differences of adjacent runs over the size of an increment.
 
-    The differences between the runs are judged by their order of convergence.
-
-    runs      runs, coarse to fine
-    x_label   label of h in charts
-    changes   differences whose order is judged
-    apart     distance in the list between the two runs of a difference, for example 2
-    left_out  number of coarse levels that are left out of an order, by quantity
+    The function receives the results of a case by run label and returns the chart.
     """
 
-    runs: tuple[AnyRun, ...]
-    x_label: str
-    changes: tuple[Order, ...]
-    apart: int
-    left_out: Mapping[Followed, int] = field(default_factory=dict)
-
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """Declared orders of convergence, completed by the labels of the runs and the refined
-        parameter.
-        """
-        labels = tuple(run.label for run in self.runs)
-        return tuple(
-            replace(
-                one,
-                levels=labels[self.left_out.get(one.of, 0) :],
-                refined=Refinement.INCREMENTS,
-                size=_increment_size,
-                apart=self.apart,
-            )
-            for one in self.changes
+    def draw(results: Mapping[str, Any]) -> Chart:
+        pairs = list(pairwise(results[run.label] for run in runs))
+        return convergence_chart(
+            name,
+            title,
+            caption,
+            [_increment_size(coarse) for coarse, _ in pairs],
+            {one.of.value: [one.error(*pair) for pair in pairs] for one in orders},
+            {one.of.value: one.expected for one in orders},
+            "1 / increments of a step",
+            {one.of.value: len(one.levels) - 1 for one in orders if len(one.levels) < len(runs)},
         )
 
-    def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Return a function that draws the differences between runs over the size of an increment.
-
-        The function receives the results of a case by run label and returns the chart.
-        """
-
-        def draw(results: Mapping[str, Any]) -> Chart:
-            levels = [results[run.label] for run in self.runs]
-            pairs = list(zip(levels, levels[self.apart :], strict=False))
-            return convergence_chart(
-                name,
-                title,
-                caption,
-                [_increment_size(coarse) for coarse, _ in pairs],
-                {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
-                {one.of.value: one.expected for one in self.changes},
-                self.x_label,
-                {of.value: len(pairs) - count for of, count in self.left_out.items()},
-            )
-
-        return draw
+    return draw
 
 
 APPROACH_CHANGE = partial(relative_difference, "approach", -1)
@@ -324,19 +291,6 @@ def _shear_change(coarse: Any, fine: Any) -> float:
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
     size = np.hypot(*(found - other))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
-
-
-def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the final radial shear between two finite element runs [1].
-
-    The result is ∫|q_coarse - q_fine| r dr / ∫µp r dr. The fine run is interpolated to the rings of
-    the coarse run.
-    """
-    one, other = coarse.steps[-1], fine.steps[-1]
-    r = one.radii
-    difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
-    limit = HALF.friction * at_radii(other, other.pressure, r)
-    return float(np.trapezoid(difference * r, r) / np.trapezoid(limit * r, r))
 
 
 def _increment_size(result: Any) -> float:
@@ -362,14 +316,6 @@ HALF = Indentation(
     "half",
     Body(material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)),
     "self-similar (Spence 1975), to five digits",
-)
-KEPT_SLIP = (
-    "slip keeps its direction while the contact grows; the errors of the increments in the stick "
-    "zone alternate and cancel in a mean"
-)
-FIXED_SHEAR = (
-    "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves the "
-    "friction limit as a square root: O(√h) on bands of width h"
 )
 
 
@@ -409,20 +355,10 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         )
         for count in counts
     )
-    backward = (
-        "the direction of slip and the friction limit change during an increment, which takes "
-        "both at its end: the backward Euler rule"
-    )
-    paths = Refined(
-        runs,
-        "1 / increments of a step",
-        (
-            change(Followed.SHIFT, "tangential shift", SHIFT_CHANGE, 1.0, backward, name="shift"),
-            change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
-            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 1.0, backward),
-        ),
-        apart=1,
-        left_out={Followed.APPROACH: 1},
+    orders = (
+        _change(runs, Followed.SHIFT, "tangential shift", SHIFT_CHANGE, "shift"),
+        _change(runs, Followed.SHEAR, "shear (L1)", _shear_change),
+        _change(runs[1:], Followed.APPROACH, "approach", APPROACH_CHANGE),
     )
     return case(
         "sheared_increments",
@@ -433,7 +369,7 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         "force. The result depends on the load path and has no known exact solution. Each "
         "doubling of the increments must reduce the change.",
         runs=runs,
-        orders=paths.orders if several else (),
+        orders=orders if several else (),
         quantities=(
             compare_runs(
                 "shift",
@@ -449,7 +385,9 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
             ),
         ),
         charts=(
-            paths.chart(
+            _chart_of_changes(
+                runs,
+                orders,
                 "sheared_increments",
                 "Smaller increments under a tangential force",
                 f"Change with twice the increments on {cells} x {cells} cells. Lines connect the "
@@ -677,68 +615,8 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
             f"With a penalty the shear is that of {FEW} increments, whose error is included: each "
             "position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
-        no_order=JUDGED_BY.format("fem_increments"),
+        no_order=JUDGED_BY.format("sheared_increments, in increments"),
         shows=("finite elements", "coated friction", "penalty"),
-    )
-
-
-def fem_increments(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction by finite elements in more
-    increments.
-
-    Judged is the order at which approach, contact radius and shear change with smaller increments
-    on one mesh. All levels are equal.
-    """
-    # The stick edge moves from node to node. This error is visible above 12 increments on 256
-    # elements per radius and above 24 on 512; an order that includes more increments is too low.
-    elements = 256
-    slowly = NotYetAsymptotic(
-        0.12,
-        "the next term is of second order and of opposite sign: for 1/h = 2 … 12 increments the "
-        "change is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose "
-        "order rises from 1.40 to 1.45 and to 1.5 as √h falls",
-    )
-    mesh = per_radius(elements, 0.97 * HALF.contact_radius)
-    paths = Refined(
-        tuple(
-            SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
-            for count in (2, 3, 4, 6, 8, 12)
-        ),
-        "1 / increments",
-        (
-            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 2.0, KEPT_SLIP),
-            change(
-                Followed.CONTACT_RADIUS,
-                "contact radius",
-                partial(relative_difference, "contact_radius", -1),
-                2.0,
-                KEPT_SLIP,
-            ),
-            change(Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly),
-        ),
-        apart=2,
-    )
-    return case(
-        "fem_increments",
-        "Finite elements: indentation with friction in smaller increments",
-        "The rigid ball on a body of ν = 0, with friction for which half of the contact radius "
-        "sticks, on one mesh. Each doubling of the increments reduces the change; the rate is "
-        "the order of the increment error.",
-        runs=paths.runs,
-        orders=paths.orders,
-        charts=(
-            paths.chart(
-                "fem_increments",
-                "Smaller increments, finite elements",
-                f"Change with twice the increments on {elements:g} elements per contact radius.",
-            ),
-        ),
-        limits=(
-            "Increments that move the stick edge by less than an element give no further "
-            "information: the mesh must be refined with them.",
-        ),
-        equations=HALF.problem(1).equations,
-        shows=("finite elements", "increments"),
     )
 
 
