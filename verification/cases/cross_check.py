@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import combinations, product
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -543,15 +544,6 @@ NAMES = {
 Reader = Callable[[Any, Field], Field]
 
 
-@dataclass(frozen=True)
-class Load:
-    """Hold the exact answer of a recorded scene: the normal force at the end of the load step
-    [force].
-    """
-
-    load: float
-
-
 def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
     """Create the judged runs of one scene that CalculiX has computed, on finite elements and on
     cells.
@@ -576,7 +568,7 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     value, uncertainty = of.normal_force
     problem = Problem(
         scene,
-        (Load(value * NORMAL_FORCE),),
+        (SimpleNamespace(load=value * NORMAL_FORCE),),
         HERTZ.contact_radius,
         "references/external_code_calculix.json: CalculiX 2.20",
         ReferenceKind.EXTERNAL_CODE,

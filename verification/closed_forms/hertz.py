@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from math import atanh, pi, sqrt
+from math import atanh, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,15 +77,6 @@ class PointContact:
         The contact radius a follows from a³ = 3WR/4E*.
         """
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
-
-    @classmethod
-    def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> PointContact:
-        """Compute the Hertz contact of a paraboloid at a given approach >= 0 of distant points
-        [length].
-
-        The contact radius a follows from a² = R * approach.
-        """
-        return cls(radius, contact_modulus, sqrt(radius * approach))
 
     @property
     def load(self) -> float:
