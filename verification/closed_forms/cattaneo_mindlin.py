@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.hertz import PointContact, half_chord
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_partial_slip,
@@ -127,10 +127,8 @@ class PartialSlip:
         The shear is parallel to the tangential force, and zero outside the contact.
         """
         a, c = self.contact_radius, self.stick_radius
-        rho = np.abs(np.asarray(r, dtype=float))
-        full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
-        taken_off = np.sqrt(np.maximum((c - rho) * (c + rho), 0))
         slope = 3 * self.friction_limit / (2 * pi * a**3)
+        full, taken_off = half_chord(a, r), half_chord(c, r)
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
     def slip(self, r: ArrayLike) -> Array:

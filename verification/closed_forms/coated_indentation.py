@@ -23,6 +23,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from verification.closed_forms.hertz import half_chord
 from verification.closed_forms.quadrature import composite_gauss, unit_gauss
 
 Array = NDArray[np.float64]
@@ -89,7 +90,7 @@ class LayeredIndentation:
         The pressure is zero outside the contact.
         """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
+        chord = half_chord(a, rho)
         smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth_response)
         if np.isfinite(self.radius):
             return np.asarray(chord * smooth)

@@ -24,6 +24,15 @@ Array = NDArray[np.float64]
 ElasticConstants = tuple[float, float]
 
 
+def half_chord(a: float, r: ArrayLike) -> Array:
+    """Compute √(a² - r²) within a circle of radius a, and 0 outside [length].
+
+    The product of a - r and a + r keeps the digits close to the circle.
+    """
+    rho = np.abs(np.asarray(r, dtype=float))
+    return np.asarray(np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
+
+
 def contact_modulus(*bodies: ElasticConstants) -> float:
     """Compute the contact modulus E* of two bodies: 1/E* = sum of (1 - ν²)/E [force/length²].
 
@@ -107,10 +116,9 @@ class PointContact:
 
         The pressure is zero outside the contact.
         """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
         slope = 2 * self.contact_modulus / (pi * self.radius)
-        return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
+        return np.asarray(slope * half_chord(self.contact_radius, r))
 
 
 SERIES_BELOW = 0.3
