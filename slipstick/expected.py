@@ -261,7 +261,7 @@ def expected_changes(
         kind, remark = _change(was, now)
         before, present = ("–" if one is None else one.text() for one in (was, now))
         rows.append(
-            ChangeRow(found.command, name, place, kind, before, present, "–", since, remark)
+            ChangeRow(found.command, name, place, kind, before, present, since=since, remark=remark)
         )
     return rows_that_matter(rows)
 

@@ -14,12 +14,10 @@ import pytest
 from contact_scene.disk_cache import without_cache
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.solver_errors import SolverError
-from verification.cases import frictional_pressing
 from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import (
     Case,
     Derived,
-    Followed,
     Level,
     Quantity,
     compare_runs,
@@ -28,16 +26,6 @@ from verification.judging.judgement import judge_laws, judge_order, judge_quanti
 from verification.judging.outcome import Status, Verdict
 from verification.problems.problem import ReferenceKind
 from verification.regression.baseline import Key, key_of
-
-
-def test_an_order_is_judged_on_all_levels_but_those_that_are_left_out() -> None:
-    orders = tuple(
-        frictional_pressing.change(of, "change", lambda one, other: 1.0, 1.0, "why")
-        for of in (Followed.SHIFT, Followed.APPROACH)
-    )
-    runs: Any = [SimpleNamespace(label=label) for label in "abcd"]
-    made = frictional_pressing.Refined(runs, "h", orders, 1, {Followed.APPROACH: 1})
-    assert [one.levels for one in made.orders] == [tuple("abcd"), tuple("bcd")]
 
 
 def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:
@@ -66,7 +54,6 @@ LONG = (
     "fem_far_field",
     "fem_hertz",
     "fem_indentation",
-    "fem_increments",
     "fem_partial_slip",
     "fem_torsion",
     "forced_effects",

@@ -45,7 +45,7 @@ for name in {RESULTS}:
 SOLVERS = ("contact_solver", "semi_analytical", "fem_reference", "radial")
 HEAVY = ("scipy", "matplotlib", "h5py", "pint", "jinja2", "skfem", "semi_analytical")
 LIBRARIES = ("numpy", "pydantic", "scipy", "h5py", "matplotlib", "typer", "rich")
-OTHER_CASES = sorted({MODULE_OF.get(name, name) for name in CASES} - {"indenters"})
+OTHER_CASES = sorted({MODULE_OF[name] for name in CASES} - {"indenters"})
 NOT_OF_A_CASE = (
     *(f"verification.cases.{name}" for name in OTHER_CASES),
     *("fem_reference", "skfem", "matplotlib", "jinja2"),

@@ -72,22 +72,6 @@ def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) 
     return means
 
 
-def round_means(
-    exact: Callable[[Field], Field], x: Field, y: Field, sides: tuple[float, float]
-) -> Field:
-    """Compute the means over equal cells of a function of the distance from the axis.
-
-    The accuracy is 2e-4 of the largest value in a cell with a square-root edge along its diagonal,
-    and better in other cells.
-
-    exact  function of the distance from the axis
-    x, y   centres of the cells [length]
-    sides  sides of all cells along x and y [length]
-    """
-    alike = np.full_like(x, sides[0]), np.full_like(x, sides[1])
-    return cell_means(lambda x, y: exact(np.hypot(x, y)), x, y, alike)
-
-
 def _means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field], rule: Rule) -> Field:
     total = np.zeros_like(x)
     for along_x, weight_x in zip(*rule, strict=True):

@@ -18,108 +18,93 @@ from verification.judging.judgement import judge
 from verification.judging.judgement import lost as without_result
 from verification.judging.outcome import CaseOutcome
 
-# In the order in which a report shows them.
-CASES = (
-    "hertz_point",
-    "hertz_exact_sphere",
-    "hertz_approach_control",
-    "hertz_unloading",
-    "dissimilar_bodies",
-    "hertz_elliptical",
-    "cone_contact",
-    "flat_punch",
-    "tilted_punch",
-    "eccentric_ball",
-    "cattaneo_mindlin",
-    "fretting_loop",
-    "paper_fretting_loop",
-    "series_spring",
-    "eccentric_contact",
-    "strained_ball",
-    "line_push",
-    "line_loop",
-    "line_shapes",
-    "line_unlike",
-    "line_on_elements",
-    "torsion",
-    "contact_stiffness",
-    "near_sliding",
-    "load_paths",
-    "coupled_history",
-    "same_surface",
-    "forced_effects",
-    "exchanged_bodies",
-    "led_histories",
-    "coated_paraboloid",
-    "compliant_bond",
-    "layered_identities",
-    "thin_layer",
-    "frictional_indentation",
-    "sheared_increments",
-    "no_slip_indentation",
-    "subsurface_stress",
-    "radial_pressing",
-    "radial_indentation",
-    "radial_torsion",
-    "radial_tangential",
-    "radial_turning",
-    "radial_stress",
-    "edge_stress",
-    "fem_hertz",
-    "fem_classical",
-    "fem_indentation",
-    "fem_increments",
-    "fem_partial_slip",
-    "growing_loads",
-    "fem_torsion",
-    "fem_far_field",
-    "cross_check",
-    "external_codes",
-    "layered_reference",
-    "frf_laws",
-    "worked_examples",
-    "written_files",
-)
-# Modules that make several cases; another case is made by the module of its name.
+# Cases by the module that declares them, in the order in which a report shows them.
 MODULES = {
     "indenters": (
-        *("hertz_point", "hertz_exact_sphere", "hertz_approach_control", "hertz_unloading"),
-        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz"),
-        *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
+        "hertz_point",
+        "hertz_exact_sphere",
+        "hertz_approach_control",
+        "hertz_unloading",
+        "dissimilar_bodies",
+        "hertz_elliptical",
+        "cone_contact",
+        "flat_punch",
+        "tilted_punch",
+        "eccentric_ball",
+        "fem_hertz",
+        "fem_classical",
     ),
-    "worked_examples": ("worked_examples", "written_files"),
-    "partial_slip": ("cattaneo_mindlin", "near_sliding"),
+    "partial_slip": (
+        "cattaneo_mindlin",
+        "near_sliding",
+    ),
     "fretting": (
-        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip"),
-        *("radial_tangential", "growing_loads"),
+        "fretting_loop",
+        "paper_fretting_loop",
+        "radial_tangential",
+        "fem_partial_slip",
+        "growing_loads",
+    ),
+    "rig_and_strain": (
+        "series_spring",
+        "eccentric_contact",
+        "strained_ball",
     ),
     "line_contacts": (
-        *("line_push", "line_loop", "line_shapes", "line_unlike", "line_on_elements"),
+        "line_push",
+        "line_loop",
+        "line_shapes",
+        "line_unlike",
+        "line_on_elements",
     ),
-    "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
-    "torsion": ("torsion", "fem_torsion", "radial_torsion", "radial_turning"),
+    "torsion": (
+        "torsion",
+        "radial_torsion",
+        "radial_turning",
+        "fem_torsion",
+    ),
+    "contact_stiffness": ("contact_stiffness",),
+    "histories": (
+        "load_paths",
+        "coupled_history",
+        "same_surface",
+        "forced_effects",
+        "exchanged_bodies",
+        "led_histories",
+        "fem_far_field",
+    ),
     "coatings": (
-        *(
-            "coated_paraboloid",
-            "compliant_bond",
-            "layered_identities",
-            "thin_layer",
-        ),
-        *("radial_pressing", "layered_reference", "frf_laws"),
+        "coated_paraboloid",
+        "compliant_bond",
+        "layered_identities",
+        "thin_layer",
+        "radial_pressing",
+        "layered_reference",
+        "frf_laws",
     ),
     "frictional_pressing": (
-        *("frictional_indentation", "sheared_increments"),
-        *("no_slip_indentation", "fem_indentation", "fem_increments"),
+        "frictional_indentation",
+        "sheared_increments",
+        "no_slip_indentation",
         "radial_indentation",
+        "fem_indentation",
     ),
-    "histories": (
-        *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),
-        *("led_histories", "fem_far_field"),
+    "stress": (
+        "subsurface_stress",
+        "radial_stress",
+        "edge_stress",
     ),
-    "cross_check": ("cross_check", "external_codes"),
-    "stress": ("subsurface_stress", "edge_stress", "radial_stress"),
+    "cross_check": (
+        "cross_check",
+        "external_codes",
+    ),
+    "worked_examples": (
+        "worked_examples",
+        "written_files",
+    ),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}
+CASES = tuple(MODULE_OF)
 
 
 def case_of(name: str, level: Level) -> Case:
@@ -131,7 +116,7 @@ def case_of(name: str, level: Level) -> Case:
     """
     if name not in CASES:
         raise KeyError(name)
-    module = import_module(f"verification.cases.{MODULE_OF.get(name, name)}")
+    module = import_module(f"verification.cases.{MODULE_OF[name]}")
     made: Case = getattr(module, name)(level)
     return made
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import combinations, product
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,7 +27,7 @@ from semi_analytical.frf.depth import Level as Depth
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import subsurface
 from verification.closed_forms.hertz import PointContact
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Look, Panel, curve, stacked
 from verification.judging.case import (
     OVER_ANGLES,
     OVER_RINGS,
@@ -398,12 +399,12 @@ def cross_check(level: Level = Level.QUICK) -> Case:
             ),
         ),
         charts=(
-            lambda results: Chart(
-                name="cross_check_profiles",
-                title="Tractions by both solvers",
-                caption="Pressure (left) and shear (right) on the line of the load for some of the "
+            lambda results: stacked(
+                "cross_check_profiles",
+                "Tractions by both solvers",
+                "Pressure (left) and shear (right) on the line of the load for some of the "
                 "contacts: finite elements in grey below cells.",
-                rows=tuple(one.panels(results) for one in (*chosen[:3], chosen[-1])),
+                *(one.panels(results) for one in (*chosen[:3], chosen[-1])),
             ),
         ),
         limits=(
@@ -543,15 +544,6 @@ NAMES = {
 Reader = Callable[[Any, Field], Field]
 
 
-@dataclass(frozen=True)
-class Load:
-    """Hold the exact answer of a recorded scene: the normal force at the end of the load step
-    [force].
-    """
-
-    load: float
-
-
 def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
     """Create the judged runs of one scene that CalculiX has computed, on finite elements and on
     cells.
@@ -576,7 +568,7 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     value, uncertainty = of.normal_force
     problem = Problem(
         scene,
-        (Load(value * NORMAL_FORCE),),
+        (SimpleNamespace(load=value * NORMAL_FORCE),),
         HERTZ.contact_radius,
         "references/external_code_calculix.json: CalculiX 2.20",
         ReferenceKind.EXTERNAL_CODE,

@@ -16,8 +16,8 @@ import numpy as np
 from contact_results.surface import surface_of
 from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.judging.case import OVER_ANGLES, Case, Level, Run
+from verification.exhibits.chart import Chart, Look, Panel, curve, stacked
+from verification.judging.case import OVER_ANGLES, AnyRun, Case, Level, Run
 from verification.judging.declared_case import (
     APPROACH,
     ASKED,
@@ -37,7 +37,6 @@ from verification.judging.declared_case import (
     RefinementLevels,
     Reported,
     Row,
-    SizedRun,
     Within,
     at_stops,
     case,
@@ -146,12 +145,12 @@ def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
             ),
         ),
     )
-    return Chart(
-        name=name,
-        title="Hysteresis loop",
-        caption="Tangential force against tangential shift, one point per increment. The area of "
+    return stacked(
+        name,
+        "Hysteresis loop",
+        "Tangential force against tangential shift, one point per increment. The area of "
         "the closed loop is the energy dissipated per cycle.",
-        rows=((panel,),),
+        panel,
     )
 
 
@@ -185,12 +184,12 @@ def loading_history_chart(result: Result) -> Chart:
         ),
         notes=tuple(marked),
     )
-    return Chart(
-        name="paper_figure_1",
-        title="Figure 1 of the paper: the loading history in a fretting loop",
-        caption="Tangential force over the friction limit against time, at constant normal force; "
+    return stacked(
+        "paper_figure_1",
+        "Figure 1 of the paper: the loading history in a fretting loop",
+        "Tangential force over the friction limit against time, at constant normal force; "
         "the letters mark the states whose tractions figure 2 shows.",
-        rows=((panel,),),
+        panel,
     )
 
 
@@ -234,23 +233,21 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
         ]
         bounds = [curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)]
         panels.append(
-            (
-                Panel(
-                    x_label="x / a" if step == max(BRANCHES) else "",
-                    y_label="qₓ / µp₀",
-                    curves=(*bounds, *grey, *colour),
-                    title=branch,
-                    height=1.4,
-                ),
+            Panel(
+                x_label="x / a" if step == max(BRANCHES) else "",
+                y_label="qₓ / µp₀",
+                curves=(*bounds, *grey, *colour),
+                title=branch,
+                height=1.4,
             )
         )
-    return Chart(
-        name="paper_figure_2",
-        title="Figure 2 of the paper: contact tractions in a fretting loop",
-        caption="Shear next to y = 0 over its largest possible value µp₀, in the states of "
+    return stacked(
+        "paper_figure_2",
+        "Figure 2 of the paper: contact tractions in a fretting loop",
+        "Shear next to y = 0 over its largest possible value µp₀, in the states of "
         "figure 1. The closed form is grey, as in the paper; the thin outer lines are the "
         "friction limit ± µp, which equals the pressure in these units.",
-        rows=tuple(panels),
+        *panels,
     )
 
 
@@ -285,15 +282,15 @@ def _closed_form_loop(exact: ExactLoop) -> tuple[np.ndarray, np.ndarray]:
 REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
-def shear_allowed(rung: SizedRun) -> float:
+def shear_allowed(run: AnyRun, _: float) -> float:
     """Return the accepted shear error of a run on cells, over the friction limit [1].
 
     The project has accuracy targets for 128 and 256 cells per side. For other numbers the target of
     128 cells is scaled by the convergence order 3/2.
 
-    rung  refinement level: run and number of cells per side
+    run  run with the number of cells per side
     """
-    return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
+    return REQUIRED_SHEAR.get(run.count, REQUIRED_SHEAR[128] * (128 / run.count) ** 1.5)
 
 
 def _cycle_rows() -> tuple[Row, ...]:
@@ -324,14 +321,18 @@ def _cycle_rows() -> tuple[Row, ...]:
     amplitude_error = error_norm(
         "largest_slip_amplitude_error",
         "largest difference of half the range of slip in the contact",
-        lambda result, _, problem: problem.ends[-1].largest_slip_amplitude_error(result),
+        lambda result, _, problem: problem.ends[-1].largest_slip_error(
+            result, loop_cycle(result).slip_amplitude, 1
+        ),
         unit="m",
         over=OVER_LARGEST_SLIP,
     )
     distance_error = error_norm(
         "largest_slip_distance_error",
         "largest difference of the accumulated slip in the contact",
-        lambda result, _, problem: problem.ends[-1].largest_slip_distance_error(result),
+        lambda result, _, problem: problem.ends[-1].largest_slip_error(
+            result, result.steps[-1].slip_distance, 5
+        ),
         unit="m",
         over=OVER_LARGEST_WAY,
     )
@@ -412,7 +413,7 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
         judged(grids, _cycle_rows()),
         charts=(
             lambda results: hysteresis_chart(
-                "fretting_hysteresis", results[grids.judged.run.label], problem.ends[-1]
+                "fretting_hysteresis", results[grids.judged.label], problem.ends[-1]
             ),
         ),
         no_order="the accuracy targets of the shear are for 128 and 256 cells; cattaneo_mindlin "
@@ -447,7 +448,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         uncertainty=0.005,
     )
     grid = square_grid(cells, 0.6e-3)
-    run = ladder(problem, [SizedRun(Run(cells_label(cells), problem.scene, grid), cells)])
+    run = ladder(problem, [Run(cells_label(cells), problem.scene, grid)])
 
     def reported(
         name: str, meaning: str, unit: str, read: Any, remark: str = "zero in the closed form"
@@ -488,7 +489,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     )
 
     def drawn(results: Mapping[str, Any]) -> Any:
-        return results[run.judged.run.label]
+        return results[run.judged.label]
 
     return case(
         "paper_fretting_loop",
@@ -587,7 +588,7 @@ def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption
     """
 
     def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[of.judged.run.label]
+        result = results[of.judged.label]
         end = result.steps[step - 1]
         along = LOOP.ends[-1].along(result)
         *_, exact = (known for found, known in along if found.step == step)

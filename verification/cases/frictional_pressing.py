@@ -7,15 +7,14 @@ increments.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from math import atanh, exp, log
+from itertools import pairwise
+from math import log
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipkm1
 
 from contact_scene import (
     RIGID,
@@ -32,13 +31,10 @@ from verification.judging.case import (
     Case,
     Followed,
     Level,
-    NotYetAsymptotic,
     Order,
     Refinement,
     Run,
-    SectionRun,
     compare_runs,
-    per_radius,
 )
 from verification.judging.declared_case import (
     APPROACH,
@@ -46,6 +42,7 @@ from verification.judging.declared_case import (
     ELEMENT_RADIUS,
     JUDGED_BY,
     PENALTY,
+    STICK_RADIUS,
     Drawing,
     Observable,
     RefinementLevels,
@@ -68,12 +65,6 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, convergence_chart, profile
-from verification.observed.ring_errors import (
-    approach,
-    at_radii,
-    contact_radius,
-    stick_radius,
-)
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (
     COATED,
@@ -102,40 +93,6 @@ from verification.problems.problem import (
 )
 from verification.quantities import relative_difference, shear_of
 
-# Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
-SMALLEST = -340.0
-LARGEST = -(2.0**-52)
-
-
-def stick_ratio(friction: float, dundurs_beta: float) -> float:
-    """Compute the ratio c/a of stick radius to contact radius for indentation with friction.
-
-    c/a lies between 0 (gross slip) and 1 (full stick). The solution neglects the effect of the
-    shear on the pressure (Goodman, Spence). A ratio that differs from 0 or 1 by less than double
-    precision is returned as 0 or 1.
-
-    friction      coefficient of friction µ > 0
-    dundurs_beta  Dundurs' second constant β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
-    """
-
-    def excess(log_c: float) -> float:
-        """Compute the difference of both sides of the equation for c/a; its zero is the solution.
-
-        The difference grows with c/a (c: stick radius, a: contact radius).
-
-        log_c  natural logarithm of c/a
-        """
-        c = exp(log_c)
-        # K of the modulus √(1 - c²), from its complementary parameter c².
-        return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))
-
-    if excess(SMALLEST) >= 0:
-        return 0.0
-    if excess(LARGEST) <= 0:
-        return 1.0
-    return exp(brentq(excess, SMALLEST, LARGEST, xtol=1e-16, rtol=1e-15))
-
-
 PRESSURE = error_norm(
     "pressure",
     "largest error of the pressure from {between} of the radius, over p_H",
@@ -156,12 +113,11 @@ SHEAR_AT_EDGE = error_norm(
 )
 
 
-ONE = "1"
 STICK_PART = Observable(
     "stick_radius",
     "stick radius over contact radius",
     "",
-    lambda result, *_: stick_radius(result) / contact_radius(result),
+    lambda result, *_: result.steps[-1].stick_radius / result.steps[-1].contact_radius,
     lambda exact: float(exact.stick_part),
 )
 
@@ -270,90 +226,60 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     )
 
 
-def change(
+def _change(
+    runs: Sequence[AnyRun],
     of: Followed,
     meaning: str,
     difference: Callable[[Any, Any], float],
-    expected: float,
-    because: str,
-    not_yet: NotYetAsymptotic | None = None,
     name: str = "",
 ) -> Order:
-    """Declare the expected order at which the difference of two neighbouring refinement levels
-    falls.
+    """Declare that the difference of two runs falls with the first power of the increment.
 
-    Used where no exact solution is known: the difference falls with the order of the error. The
-    labels of the levels are added by `Refined.orders`.
+    Used where no exact solution is known: the difference falls with the order of the error.
 
+    runs        runs with more and more increments, coarse to fine
     of          quantity whose order is judged
     meaning     description of the difference
-    difference  function from the results of a coarse and a fine level to the difference
-    expected    expected exponent p of h^p
-    because     reason for the expected order
-    not_yet     allowance for levels that are too coarse for the theory
+    difference  function from the results of a run and the next one to the difference
     name        name of the verdict after `order_of_`; default: the name of the quantity
     """
-    name = f"order_of_{name or of.value.replace(' ', '_')}"
-    return Order(name, of, meaning, (), difference, expected, because, not_yet)
+    return Order(
+        f"order_of_{name or of.value}",
+        of,
+        meaning,
+        tuple(run.label for run in runs),
+        difference,
+        1.0,
+        "the direction of slip and the friction limit change during an increment, which takes both "
+        "at its end: the backward Euler rule",
+        refined=Refinement.INCREMENTS,
+        size=_increment_size,
+        apart=1,
+    )
 
 
-@dataclass(frozen=True)
-class Refined:
-    """Hold runs with more and more increments, coarse to fine.
+def _chart_of_changes(
+    runs: Sequence[AnyRun], orders: Sequence[Order], name: str, title: str, caption: str
+) -> Drawing:
+    """Return a function that draws the differences of adjacent runs over the size of an increment.
 
-    The differences between the runs are judged by their order of convergence.
-
-    runs      runs, coarse to fine
-    x_label   label of h in charts
-    changes   differences whose order is judged
-    apart     distance in the list between the two runs of a difference, for example 2
-    left_out  number of coarse levels that are left out of an order, by quantity
+    The function receives the results of a case by run label and returns the chart.
     """
 
-    runs: tuple[AnyRun, ...]
-    x_label: str
-    changes: tuple[Order, ...]
-    apart: int
-    left_out: Mapping[Followed, int] = field(default_factory=dict)
-
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """Declared orders of convergence, completed by the labels of the runs and the refined
-        parameter.
-        """
-        labels = tuple(run.label for run in self.runs)
-        return tuple(
-            replace(
-                one,
-                levels=labels[self.left_out.get(one.of, 0) :],
-                refined=Refinement.INCREMENTS,
-                size=_increment_size,
-                apart=self.apart,
-            )
-            for one in self.changes
+    def draw(results: Mapping[str, Any]) -> Chart:
+        pairs = list(pairwise(results[run.label] for run in runs))
+        return convergence_chart(
+            name,
+            title,
+            caption,
+            [_increment_size(coarse) for coarse, _ in pairs],
+            {one.of.value: [one.error(*pair) for pair in pairs] for one in orders},
+            {one.of.value: one.expected for one in orders},
+            "1 / increments of a step",
+            {one.of.value: len(one.levels) - 1 for one in orders if len(one.levels) < len(runs)},
         )
 
-    def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Return a function that draws the differences between runs over the size of an increment.
-
-        The function receives the results of a case by run label and returns the chart.
-        """
-
-        def draw(results: Mapping[str, Any]) -> Chart:
-            levels = [results[run.label] for run in self.runs]
-            pairs = list(zip(levels, levels[self.apart :], strict=False))
-            return convergence_chart(
-                name,
-                title,
-                caption,
-                [_increment_size(coarse) for coarse, _ in pairs],
-                {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
-                {one.of.value: one.expected for one in self.changes},
-                self.x_label,
-                {of.value: len(pairs) - count for of, count in self.left_out.items()},
-            )
-
-        return draw
+    return draw
 
 
 APPROACH_CHANGE = partial(relative_difference, "approach", -1)
@@ -365,19 +291,6 @@ def _shear_change(coarse: Any, fine: Any) -> float:
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
     size = np.hypot(*(found - other))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
-
-
-def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the final radial shear between two finite element runs [1].
-
-    The result is ∫|q_coarse - q_fine| r dr / ∫µp r dr. The fine run is interpolated to the rings of
-    the coarse run.
-    """
-    one, other = coarse.steps[-1], fine.steps[-1]
-    r = one.radii
-    difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
-    limit = HALF.friction * at_radii(other, other.pressure, r)
-    return float(np.trapezoid(difference * r, r) / np.trapezoid(limit * r, r))
 
 
 def _increment_size(result: Any) -> float:
@@ -403,14 +316,6 @@ HALF = Indentation(
     "half",
     Body(material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)),
     "self-similar (Spence 1975), to five digits",
-)
-KEPT_SLIP = (
-    "slip keeps its direction while the contact grows; the errors of the increments in the stick "
-    "zone alternate and cancel in a mean"
-)
-FIXED_SHEAR = (
-    "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves the "
-    "friction limit as a square root: O(√h) on bands of width h"
 )
 
 
@@ -450,20 +355,10 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         )
         for count in counts
     )
-    backward = (
-        "the direction of slip and the friction limit change during an increment, which takes "
-        "both at its end: the backward Euler rule"
-    )
-    paths = Refined(
-        runs,
-        "1 / increments of a step",
-        (
-            change(Followed.SHIFT, "tangential shift", SHIFT_CHANGE, 1.0, backward, name="shift"),
-            change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
-            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 1.0, backward),
-        ),
-        apart=1,
-        left_out={Followed.APPROACH: 1},
+    orders = (
+        _change(runs, Followed.SHIFT, "tangential shift", SHIFT_CHANGE, "shift"),
+        _change(runs, Followed.SHEAR, "shear (L1)", _shear_change),
+        _change(runs[1:], Followed.APPROACH, "approach", APPROACH_CHANGE),
     )
     return case(
         "sheared_increments",
@@ -474,7 +369,7 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         "force. The result depends on the load path and has no known exact solution. Each "
         "doubling of the increments must reduce the change.",
         runs=runs,
-        orders=paths.orders if several else (),
+        orders=orders if several else (),
         quantities=(
             compare_runs(
                 "shift",
@@ -490,7 +385,9 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
             ),
         ),
         charts=(
-            paths.chart(
+            _chart_of_changes(
+                runs,
+                orders,
                 "sheared_increments",
                 "Smaller increments under a tangential force",
                 f"Change with twice the increments on {cells} x {cells} cells. Lines connect the "
@@ -526,13 +423,13 @@ NO_SLIP_BALL = {0.0: (1.0887337, 1.1960963), 0.3: (1.0245802, 1.0539106)}
 
 def _factor_error(nu: float, bonded: Any, smooth: Any) -> float:
     factor = (1 - nu) * log(3 - 4 * nu) / (1 - 2 * nu)
-    return abs(approach(smooth) / approach(bonded) / factor - 1)
+    return abs(smooth.steps[-1].approach / bonded.steps[-1].approach / factor - 1)
 
 
 def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
     approach_factor, load_factor = NO_SLIP_BALL[nu]
     exact = HERTZ.approach * approach_factor / load_factor ** (2 / 3)
-    return abs((2 * approach(many) - approach(few)) / exact - 1)
+    return abs((2 * many.steps[-1].approach - few.steps[-1].approach) / exact - 1)
 
 
 def no_slip_indentation(level: Level = Level.QUICK) -> Case:
@@ -718,108 +615,8 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
             f"With a penalty the shear is that of {FEW} increments, whose error is included: each "
             "position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
-        no_order=JUDGED_BY.format("fem_increments"),
+        no_order=JUDGED_BY.format("sheared_increments, in increments"),
         shows=("finite elements", "coated friction", "penalty"),
-    )
-
-
-def fem_increments(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction by finite elements in more
-    increments.
-
-    Judged is the order at which approach, contact radius and shear change with smaller increments
-    on one mesh. All levels are equal.
-    """
-    # The stick edge moves from node to node. This error is visible above 12 increments on 256
-    # elements per radius and above 24 on 512; an order that includes more increments is too low.
-    elements = 256
-    slowly = NotYetAsymptotic(
-        0.12,
-        "the next term is of second order and of opposite sign: for 1/h = 2 … 12 increments the "
-        "change is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose "
-        "order rises from 1.40 to 1.45 and to 1.5 as √h falls",
-    )
-    mesh = per_radius(elements, 0.97 * HALF.contact_radius)
-    paths = Refined(
-        tuple(
-            SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
-            for count in (2, 3, 4, 6, 8, 12)
-        ),
-        "1 / increments",
-        (
-            change(Followed.APPROACH, "approach", APPROACH_CHANGE, 2.0, KEPT_SLIP),
-            change(
-                Followed.CONTACT_RADIUS,
-                "contact radius",
-                partial(relative_difference, "contact_radius", -1),
-                2.0,
-                KEPT_SLIP,
-            ),
-            change(Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly),
-        ),
-        apart=2,
-    )
-    return case(
-        "fem_increments",
-        "Finite elements: indentation with friction in smaller increments",
-        "The rigid ball on a body of ν = 0, with friction for which half of the contact radius "
-        "sticks, on one mesh. Each doubling of the increments reduces the change; the rate is "
-        "the order of the increment error.",
-        runs=paths.runs,
-        orders=paths.orders,
-        charts=(
-            paths.chart(
-                "fem_increments",
-                "Smaller increments, finite elements",
-                f"Change with twice the increments on {elements:g} elements per contact radius.",
-            ),
-        ),
-        limits=(
-            "Increments that move the stick edge by less than an element give no further "
-            "information: the mesh must be refined with them.",
-        ),
-        equations=HALF.problem(1).equations,
-        shows=("finite elements", "increments"),
-    )
-
-
-@dataclass(frozen=True)
-class Goodman:
-    """Hold the exact answer of indentation with friction if the shear does not change the pressure.
-
-    stick_part  radius of the stick disc over the contact radius
-    """
-
-    stick_part: float
-
-
-def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Problem:
-    """Create the problem of a rigid ball that is pressed with friction on a nearly incompressible
-    body.
-
-    Shear and pressure are then weakly coupled, and Goodman's solution holds for the stick radius.
-    The coupling is measured by Dundurs' constant β = (1 - 2ν)/(2(1 - ν)).
-
-    title       title of the scene
-    nu          Poisson ratio ν of the half-space, close to 1/2
-    ratio       coefficient of friction over β
-    increments  number of increments
-    """
-    beta = (1 - 2 * nu) / (2 * (1 - nu))
-    scene = pressed(
-        title, rigid_ball(), half_space(nu), pressing(increments), friction=ratio * beta
-    )
-    return Problem(
-        scene,
-        (Goodman(stick_ratio(ratio * beta, beta)),),
-        HERTZ.contact_radius,
-        "Goodman 1962; Spence 1975: (a/2c) ln((a+c)/(a-c)) = (µ/β) K'(c/a)",
-        uncertainty=beta**2,
-        scales={ONE: 1.0},
-        equations=(
-            r"\frac{a}{2c} \ln\frac{a + c}{a - c} = \frac{\mu}{\beta} K'(c/a),\quad "
-            r"\beta = \frac{1 - 2\nu}{2 (1 - \nu)}",
-        ),
     )
 
 
@@ -851,27 +648,14 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
     """Create the verification case of indentation with friction by the radial solver.
 
     Approach, contact radius, stick radius and shear are compared with tabulated solutions of
-    integral equations. For a nearly incompressible body the stick radius is compared with Goodman's
-    solution. All levels are equal.
+    integral equations. All levels are equal.
     """
     increments, rings = 64, 512  # twice the increments for contacts that also need twice on cells
     why = "accuracy target of the radial solver at these increments"
     of_contacts = (
         Within(APPROACH, 1e-6, why),
         Within(CONTACT_RADIUS, 1e-6, why),
-        Within(
-            Observable(
-                "stick_radius",
-                "stick radius",
-                "m",
-                lambda result, *_: stick_radius(result),
-                lambda one: one.stick_part * one.contact_radius,
-                OVER_HERTZ_RADIUS,
-                scalar=("stick_radius", 0),
-            ),
-            1e-3,
-            why,
-        ),
+        Within(replace(STICK_RADIUS, over=OVER_HERTZ_RADIUS), 1e-3, why),
         Within(
             error_norm(
                 "mean_shear",
@@ -883,36 +667,19 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             why,
         ),
     )
-    # Nearly without coupling; the error of Goodman's solution is about β².
-    nu = 0.49
-    beta = (1 - 2 * nu) / (2 * (1 - nu))
-    of_goodman = Within(
-        replace(STICK_PART, name="stick_part", over=ONE),
-        1e-3,
-        f"accuracy target of the stick radius; {beta**2:.0e} is the error of Goodman's solution",
-    )
     return case(
         "radial_indentation",
         "Radial solver: indentation with friction",
         "The paper's ball, rigid, is pressed by 1 kN on half-spaces and on a coating that move "
         f"towards the axis below the ball, in {increments} increments, or twice that number "
         "where nearly all of the contact sticks, by the radial solver. The references are "
-        "solutions of integral equations over the radius. For weak coupling the stick radius is "
-        "Goodman's.",
+        "solutions of integral equations over the radius.",
         *(
             judged(
                 on_radii(one.problem(increments * one.increments // FEW), one.name, rings=rings),
                 of_contacts,
             )
             for one in (WEAK, STRONG, NO_POISSON_BALL, COATED)
-        ),
-        *(
-            judged(
-                on_radii(_goodman_problem(title, nu, ratio, increments), title, rings=rings),
-                (of_goodman,),
-            )
-            for ratio in (0.5, 1.0)
-            for title in [f"ν = {nu:g}, µ = {ratio:g} β"]
         ),
         no_order="judged at the increments of the case, not on several numbers of them",
         shows=("radial solver", "coated friction"),

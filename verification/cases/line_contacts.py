@@ -63,6 +63,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
 )
 from verification.judging.drawings import Drawn, profile
+from verification.judging.field_errors import relative_pressure_error
 from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
@@ -269,16 +270,10 @@ def _shaped(shape: type, load: float, **sizes: float) -> Scene:
     return _cylinder(LoadStep(normal_force=load), friction=None, indenter=indenter)
 
 
-def _middle_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative error of the pressure in the middle half of a punch."""
-    end, x = result.steps[step], result.grid.x
-    middle = np.abs(x) < problem.radius / 2
-    exact = problem.ends[step].pressure(x[middle])
-    return float(np.max(np.abs(end.pressure[middle, 0] / exact - 1)))
-
-
 MIDDLE = error_norm(
-    "middle_pressure", "largest relative error of the pressure in the middle half", _middle_error
+    "middle_pressure",
+    "largest relative error of the pressure in the middle half",
+    relative_pressure_error(0.0, 0.5),
 )
 TILT = number("tilt", "tilt", quantity="tilt_y")
 
@@ -519,10 +514,10 @@ def line_on_elements(level: Level = Level.QUICK) -> Case:
                 compared(
                     f"{name}_of_{pair.replace(' ', '_')}",
                     f"difference of elements from strips: {name.replace('_', ' ')}, relative",
-                    one.run,
-                    other.judged.run,
+                    one,
+                    other.judged,
                     partial(relative_difference, name, step),
-                    own[name](one) + more,
+                    own[name](one, of.radius) + more,
                     "sum of the tolerances of both solvers for half-spaces",
                     "strips, which share only the scene",
                     ReferenceKind.OTHER_SOLVER,

@@ -163,7 +163,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
                 grids,
                 "cattaneo_profiles",
                 "Shear next to y = 0",
-                f"Computed shear on {grids.judged.run.label} cells at four tangential forces, "
+                f"Computed shear on {grids.judged.label} cells at four tangential forces, "
                 "the closed form, and their difference, which is largest at the stick edge and "
                 "at the contact edge.",
                 "qₓ / µp₀",

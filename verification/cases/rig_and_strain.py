@@ -7,6 +7,7 @@ lower body acts along the surface.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,9 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from contact_results.cycles import fretting_cycles
-from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import OnCells
-from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
+from contact_scene import Ellipsoid, LoadStep, Rig
 from contact_scene.array_types import Field
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
@@ -56,15 +55,12 @@ from verification.problems.problem import (
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
-    STEEL,
     UNLIKE,
     Problem,
     ReferenceKind,
     frictional,
-    frictionless,
     paraboloid,
     partial_slip,
-    pressing,
 )
 from verification.quantities import shear_of
 from verification.references import load_reference
@@ -405,65 +401,6 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
 
 
 STRAIN = 3e-4
-HARD = IsotropicMaterial(young_modulus=2 * STEEL.young_modulus, poisson_ratio=0.2)
-
-
-@dataclass(frozen=True)
-class Strained:
-    """Hold the reference answer of a pressed ball on a body that is strained equally along x and y.
-
-    stick_radius       radius of the stick zone [length]
-    dissipated_energy  energy dissipated by friction [force*length]
-    """
-
-    stick_radius: float
-    dissipated_energy: float
-
-
-def _coated_strain_problem() -> Problem:
-    """Create the problem of a frictionless coated contact that is pressed and then strained along
-    x.
-
-    The strain does not change the pressure. The exact answer is the change of the stress in layer
-    and base.
-    """
-    layer = Layer(thickness=0.2e-3, material=HARD)
-    scene = frictionless("Coated body, strained", paraboloid(NU_ZERO), STEEL, pressing(1))
-    body = scene.body.model_copy(update={"layers": (layer,)})
-    step = LoadStep(bulk_strain=(STRAIN, 0.0, 0.0), increments=1)
-    changed = {"body": body, "loading": (*scene.loading, step)}
-    end = {layer: one.plane_strain_modulus * STRAIN for layer, one in enumerate((HARD, STEEL))}
-    return Problem(
-        scene.model_copy(update=changed),
-        (HERTZ, end),
-        HERTZ.contact_radius,
-        "plane stress",
-        equations=(r"\Delta\sigma_{xx} = \frac{E}{1 - \nu^2} \epsilon",),
-    )
-
-
-def _added_stress(layer: int) -> Observable:
-    """Create the observable of the change of σ_xx below the contact centre that a bulk strain
-    causes.
-
-    layer  0 for the stress in the layer, 1 for the stress in the base
-    """
-
-    def measure(result: Any, step: int, _: Problem) -> float:
-        deep = (0.1e-3, 0.4e-3)
-        states = (state_of_result(result, number) for number in (1, 2))
-        before, after = (OnCells(state).stress(deep).axis for state in states)
-        level = int(np.argmin(np.abs(after.depth - deep[layer])))
-        return float(after.stress[0, level] - before.stress[0, level])
-
-    name = ("layer", "base")[layer]
-    return Observable(
-        f"stress_of_{name}",
-        f"stress along a uniaxial strain in the {name}",
-        "Pa",
-        measure,
-        lambda end: float(end[layer]),
-    )
 
 
 def strained_ball(level: Level = Level.QUICK) -> Case:
@@ -471,10 +408,13 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
     ball.
 
     Stick radius and dissipated energy of all solvers and contact methods are compared with stored
-    reference numbers. The stress that a strain adds in a coated body is judged as well.
+    reference numbers.
     """
     known = load_reference("strained_ball")
-    exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])
+    exact = SimpleNamespace(
+        stick_radius=known["stick_radius"] * HERTZ.contact_radius,
+        dissipated_energy=known["dissipated_energy"],
+    )
     step = LoadStep(bulk_strain=(STRAIN, STRAIN, 0.0), increments=1)
     problem = Problem(
         frictional("Ball on a strained body", paraboloid(NU_ZERO), NU_ZERO, step),
@@ -508,13 +448,6 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
         judged(elements, rows(4e-4)),
         judged(springs, rows(1.5e-3)),
         judged(on_radii(problem, "rings"), rows(4e-4)),
-        judged(
-            on_cells(_coated_strain_problem(), (32,), of="coated"),
-            [
-                Within(_added_stress(layer), 1e-9, "exact: the pressure does not change")
-                for layer in (0, 1)
-            ],
-        ),
         no_order="the reference is a numerical solution by the radial solver; cattaneo_mindlin "
         "and fem_partial_slip judge the orders of cells and elements",
         shows=("bulk strain",),

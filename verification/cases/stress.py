@@ -33,6 +33,7 @@ from verification.closed_forms.huber_stress import (
     huber_stress,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
+    stress_by_partial_slip,
     trailing_edge_tension,
 )
 from verification.judging.case import Case, Level, Quantity, Required, computed_error
@@ -506,8 +507,8 @@ def _partial_slip_stress_error(depth: float, result: Any, *_: Any) -> float:
 
 def _error_of_tension(result: Any, *_: Any) -> float:
     edge = np.array([-1.0])
-    exact = stress_by_hertz_pressure(edge, 1.0, P0, NU) + stress_by_hertz_shear(edge, 1.0, MOST, NU)
-    exact -= stress_by_hertz_shear(edge, STUCK, STUCK * MOST, NU)
+    exact = stress_by_hertz_pressure(edge, 1.0, P0, NU)
+    exact = exact + stress_by_partial_slip(edge, 1.0, STUCK, MOST, NU)
     body = _stress_below(result)
     place = np.array([body.centre - body.parts.radius]) / A
     found = _stress_at_points(body, 0.0, place, 0 * place).principal[0]

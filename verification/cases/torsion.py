@@ -9,12 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
-from math import hypot, pi
+from math import pi
 from typing import Any
 
 import numpy as np
 
-import radial
 from contact_errors.coarse_solves import stated_errors
 from contact_scene import (
     Body,
@@ -34,8 +33,6 @@ from verification.judging.case import (
     Case,
     Followed,
     Level,
-    Required,
-    computed_error,
 )
 from verification.judging.declared_case import (
     PENALTY,
@@ -88,7 +85,6 @@ from verification.problems.problem import (
     coated,
     exact_contact,
     film,
-    identity,
     pressed,
     pressing,
     rigid_ball,
@@ -530,33 +526,6 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
     return worst(*shares)
 
 
-def _rotate_quarter(vector: Any) -> tuple[float, float]:
-    """Return a vector (x, y) rotated by a right angle from x towards y."""
-    x, y = vector
-    return -y, x
-
-
-def _rotated_shift_error() -> float:
-    """Compute the relative change of the tangential shift if all loads are rotated by a right angle
-    [1].
-
-    Both scenes are solved by the radial solver. Half the number of rings and eight angles are used,
-    so that the rotation maps each point to another point.
-    """
-    here = _coated_ball_scene(
-        "pushed along x, then y", *(_force_step(*push, 2) for push in TURNING)
-    )
-    scene = _coated_ball_scene(
-        "pushed along y, then -x", *(_force_step(*_rotate_quarter(push), 2) for push in TURNING)
-    )
-    plan = replace(radial.plan(here), fineness=0.5)
-    one, other = (
-        np.asarray(radial.solve(asked, plan=plan).steps[-1].tangential_shift)
-        for asked in (here, scene)
-    )
-    return float(hypot(*np.subtract(_rotate_quarter(one), other)) / hypot(*_rotate_quarter(one)))
-
-
 def radial_turning(level: Level = Level.QUICK) -> Case:
     """Create the verification case of torsion of coupled bodies and of turning forces by the radial
     solver and by finite elements.
@@ -669,17 +638,6 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
                 (of_elements,),
             )
             for name, scene in scenes.items()
-        ),
-        quantities=(
-            computed_error(
-                "turned",
-                "difference of the shift after a quarter turn",
-                "the radial solver",
-                _rotated_shift_error,
-                identity(0.0, "a rotated scene has rotated results"),
-                Required(1e-10, "points are mapped to points"),
-                "the shift",
-            ),
         ),
         limits=(
             "The histories of coupled bodies have no closed form: the three solvers are compared "

@@ -204,7 +204,7 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     problem, a = one.problem(one.increments), one.contact_radius
     scene = problem.scene.model_copy(update={"loading": (pressing(),)})
     r = ROUND_RADII[AMONG * a > ROUND_RADII]
-    r = r[np.abs(r - one.stick_part * a) > AWAY * a]
+    r = r[np.abs(r - one.stick_radius) > AWAY * a]
     places = np.stack([r, 0 * r, 0 * r], axis=1)
     tractions = {
         "pressure": ("p_over_pH", HERTZ.peak_pressure, "p_H"),
@@ -213,7 +213,7 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     numbers = (
         of_itself("approach", 1, one.approach, uncertainty=REFERENCE_ERROR),
         of_itself("contact_radius", 1, a, uncertainty=REFERENCE_ERROR),
-        stick_radius(1, one.stick_part * a, uncertainty=STICK_ERROR),
+        stick_radius(1, one.stick_radius, uncertainty=STICK_ERROR),
         *(
             AskedValue(
                 quantity,

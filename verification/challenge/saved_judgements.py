@@ -26,7 +26,7 @@ from verification.judging.outcome import (
     moved_text,
 )
 from verification.regression.baseline import JudgedQuantity, count_change, quantity_change
-from verification.regression.change_row import ChangeRow, rows_that_matter
+from verification.regression.change_row import ABSENT, ChangeRow, count_row, rows_that_matter
 
 WHAT = "file of judgements"
 REMEDY = "restore it, or delete it and save the judgement again by --save"
@@ -145,7 +145,7 @@ def _quantity_changes(
         was = known.get(key)
         change = quantity_change(now, was, NO_ORIGIN)
         remark = change.remark or ("" if now.status is Status.PASS else because)
-        text = "–" if was is None else _error_text(was)
+        text = ABSENT if was is None else _error_text(was)
         size = change.moved or 0.0
         yield ChangeRow(
             case,
@@ -163,7 +163,7 @@ def _quantity_changes(
             apart = abs(now.order[0] - was.order[0]) > now.order[1] + was.order[1]
             kind = ChangeKind.DRIFT if apart else ChangeKind.UNCHANGED
             texts = order_text(*was.order), order_text(*now.order)
-            yield ChangeRow(case, f"order of {now.name}", now.run, kind, *texts, "–", since, "")
+            yield ChangeRow(case, f"order of {now.name}", now.run, kind, *texts, since=since)
     for key, was in known.items():
         if key not in found:
             yield ChangeRow(
@@ -172,10 +172,8 @@ def _quantity_changes(
                 was.run,
                 ChangeKind.GONE,
                 _error_text(was),
-                "–",
-                "–",
-                since,
-                "the solver no longer gives it",
+                since=since,
+                remark="the solver no longer gives it",
             )
 
 
@@ -196,10 +194,8 @@ def _level_changes(
                 was.label,
                 ChangeKind.GONE,
                 f"h = {was.h:.3g} m",
-                "–",
-                "–",
-                since,
-                "call the solver on as many levels as before",
+                since=since,
+                remark="call the solver on as many levels as before",
             )
     pairs = [
         (now.unknowns, was.unknowns)
@@ -207,8 +203,4 @@ def _level_changes(
         if now.unknowns is not None and was.unknowns is not None
     ]
     for change in count_change("unknowns", *(sum(pair[i] for pair in pairs) for i in (0, 1))):
-        size = abs(change.now / max(change.was, 1) - 1)
-        texts = str(change.was), str(change.now)
-        yield ChangeRow(
-            case, change.name, "all levels", change.kind, *texts, "–", since, change.remark, size
-        )
+        yield count_row(case, "all levels", change, since)

@@ -30,10 +30,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.hertz import PointContact, half_chord
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
-    stress_by_hertz_shear,
+    stress_by_partial_slip,
 )
 
 Array = NDArray[np.float64]
@@ -127,10 +127,8 @@ class PartialSlip:
         The shear is parallel to the tangential force, and zero outside the contact.
         """
         a, c = self.contact_radius, self.stick_radius
-        rho = np.abs(np.asarray(r, dtype=float))
-        full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
-        taken_off = np.sqrt(np.maximum((c - rho) * (c + rho), 0))
         slope = 3 * self.friction_limit / (2 * pi * a**3)
+        full, taken_off = half_chord(a, r), half_chord(c, r)
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
     def slip(self, r: ArrayLike) -> Array:
@@ -349,11 +347,8 @@ class CycledContact:
         σ_T is the larger value of σ_xx at the two ends of the cycle. The tangential force acts
         along x.
         """
-        a, c = self.end.contact_radius, self.end.stick_radius
-        q0 = self.end.friction_coefficient * self.peak_pressure
-        sheared = stress_by_hertz_shear(x, a, q0, 0.0)
-        if c > 0:
-            sheared = sheared - stress_by_hertz_shear(x, c, q0 * c / a, 0.0)
+        a, q0 = self.end.contact_radius, self.end.friction_coefficient * self.peak_pressure
+        sheared = stress_by_partial_slip(x, a, self.end.stick_radius, q0, 0.0)
         return stress_by_hertz_pressure(x, a, self.peak_pressure, 0.0) + np.abs(sheared)
 
     @property

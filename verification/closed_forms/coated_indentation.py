@@ -23,7 +23,8 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.hertz import half_chord
+from verification.closed_forms.quadrature import composite_gauss, unit_gauss
 
 Array = NDArray[np.float64]
 Compliance = Callable[[Array], Array]
@@ -89,7 +90,7 @@ class LayeredIndentation:
         The pressure is zero outside the contact.
         """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
+        chord = half_chord(a, rho)
         smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth_response)
         if np.isfinite(self.radius):
             return np.asarray(chord * smooth)
@@ -238,6 +239,4 @@ def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
     equal = np.arange(doublings[-1] + step, limit, step)
     bounds = np.concatenate([[0.0], doublings, equal, [limit]])
     bounds = np.append(bounds[bounds < limit], limit)
-    points, weights = unit_gauss(PANEL_POINTS)
-    widths = np.diff(bounds)[:, None]
-    return (bounds[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
+    return composite_gauss(bounds, PANEL_POINTS)

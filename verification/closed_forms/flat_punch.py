@@ -117,10 +117,7 @@ class TiltedPunch:
         """
         a, (e_x, e_y) = self.contact_radius, self.eccentricity
         X, Y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-        r = np.hypot(X, Y)
-        room = np.where(r <= a, (a - r) * (a + r), np.inf)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            upright = self.load / (2 * pi * a * np.sqrt(room))
+        upright = _rim_singular(self.load, a, np.hypot(X, Y))
         return np.asarray(upright * (1 + 3 * (e_x * X + e_y * Y) / a**2))
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from math import atanh, pi, sqrt
+from math import atanh, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +22,15 @@ from verification.closed_forms.quadrature import unit_gauss
 Array = NDArray[np.float64]
 
 ElasticConstants = tuple[float, float]
+
+
+def half_chord(a: float, r: ArrayLike) -> Array:
+    """Compute √(a² - r²) within a circle of radius a, and 0 outside [length].
+
+    The product of a - r and a + r keeps the digits close to the circle.
+    """
+    rho = np.abs(np.asarray(r, dtype=float))
+    return np.asarray(np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
 
 def contact_modulus(*bodies: ElasticConstants) -> float:
@@ -78,15 +87,6 @@ class PointContact:
         """
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
 
-    @classmethod
-    def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> PointContact:
-        """Compute the Hertz contact of a paraboloid at a given approach >= 0 of distant points
-        [length].
-
-        The contact radius a follows from a² = R * approach.
-        """
-        return cls(radius, contact_modulus, sqrt(radius * approach))
-
     @property
     def load(self) -> float:
         """Normal load W = 4E*a³/3R of the Hertz contact (a: contact radius, R: radius of curvature)
@@ -116,10 +116,9 @@ class PointContact:
 
         The pressure is zero outside the contact.
         """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
         slope = 2 * self.contact_modulus / (pi * self.radius)
-        return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
+        return np.asarray(slope * half_chord(self.contact_radius, r))
 
 
 SERIES_BELOW = 0.3

@@ -107,6 +107,26 @@ def stress_by_hertz_shear(
     return np.asarray(-peak_shear * t * np.where(outside, beyond, pi / 8 * (4 + nu)))
 
 
+def stress_by_partial_slip(
+    x: ArrayLike,
+    contact_radius: float,
+    stick_radius: float,
+    peak_shear: float,
+    poisson_ratio: float,
+) -> Array:
+    """Compute the surface stress σ_xx at (x, 0) by the shear of a Hertz contact in partial slip.
+
+    The shear is that of gross slip less that of the stick disc (Hamilton and Goodman 1966).
+
+    stick_radius  radius of the stick disc; 0 for gross slip [length]
+    """
+    slipping = stress_by_hertz_shear(x, contact_radius, peak_shear, poisson_ratio)
+    if stick_radius == 0:
+        return slipping
+    part = peak_shear * stick_radius / contact_radius
+    return slipping - stress_by_hertz_shear(x, stick_radius, part, poisson_ratio)
+
+
 def stress_by_hertz_pressure(
     x: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> Array:

@@ -17,3 +17,16 @@ def unit_gauss(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     nodes.setflags(write=False)
     weights.setflags(write=False)
     return nodes, weights
+
+
+def composite_gauss(
+    bounds: NDArray[np.float64], order: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return nodes and weights of a Gauss-Legendre rule on each of several adjacent panels.
+
+    bounds  ends of the panels, in ascending order
+    order   number of nodes of a panel
+    """
+    nodes, weights = unit_gauss(order)
+    widths = np.diff(bounds)[:, None]
+    return (bounds[:-1, None] + widths * nodes).ravel(), (widths * weights).ravel()

@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
-from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.quadrature import composite_gauss, unit_gauss
 
 ORDER = 120
 
@@ -419,6 +419,4 @@ class CoatedTorsion:
         step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
         fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)
         bounds = np.concatenate([[0.0], fine, np.arange(step, limit, step), [limit]])
-        v, weights = unit_gauss(PANEL_POINTS)
-        widths = np.diff(bounds)[:, None]
-        return (bounds[:-1, None] + widths * v).ravel(), (widths * weights).ravel()
+        return composite_gauss(bounds, PANEL_POINTS)

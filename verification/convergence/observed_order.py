@@ -141,10 +141,7 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
     """
     if len(sizes) < 4:
         raise ValueError(f"{len(sizes)} levels cannot give order and limit; use at least 4")
-    finest_first = np.argsort(sizes)
-    h = np.asarray(sizes, dtype=float)[finest_first]
-    f = np.asarray(values, dtype=float)[finest_first]
-    h /= h[0]
+    h, f = _finest_first(sizes, values)
     observed = _fit_order(h, f, expected)
     limit, uncertainty = richardson(h, f, expected)
     if observed is not None:
@@ -171,16 +168,20 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
     """
     if len(sizes) < 3:
         raise ValueError(f"{len(sizes)} levels cannot show a scatter; use at least 3")
-    finest_first = np.argsort(sizes)
-    h = np.asarray(sizes, dtype=float)[finest_first]
-    f = np.asarray(values, dtype=float)[finest_first]
-    h /= h[0]
+    h, f = _finest_first(sizes, values)
     fit = _line(h, f, order, order)
     half = max(3, (len(h) + 1) // 2)
     ranges = slice(half), slice(len(h) - half, None)
     moved = max(abs(_line(h[part], f[part], order, order).limit - fit.limit) for part in ranges)
     scatter = float(np.sqrt(fit.squares / (len(h) - 2)))
     return float(np.hypot(fit.coefficient, max(moved, scatter)))
+
+
+def _finest_first(sizes: Sequence[float], values: Sequence[float]) -> tuple[Vector, Vector]:
+    """Return sizes over the finest one, and values, from the finest level to the coarsest."""
+    order = np.argsort(sizes)
+    h = np.asarray(sizes, dtype=float)[order]
+    return h / h[0], np.asarray(values, dtype=float)[order]
 
 
 @dataclass(frozen=True)

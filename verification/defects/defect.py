@@ -4,12 +4,14 @@ run."""
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import ModuleType
 from typing import Any
+
+import numpy as np
 
 from verification.running.cold_cache import clear_caches
 
@@ -145,3 +147,34 @@ def _exchange_everywhere(before: Any, after: Any) -> None:
         for name, value in list(vars(module).items()):
             if value is before:
                 setattr(module, name, after)
+
+
+def changed_results(change: Callable[[Any], Any], *solvers: ModuleType) -> Replacements:
+    """Return the defect that changes the results of solvers.
+
+    change   function of the correct result that returns the wrong result
+    solvers  packages with a function `solve`
+    """
+
+    def solve(whole: Any, *given: Any, **named: Any) -> Any:
+        return change(whole(*given, **named))
+
+    return tuple(Replacement(owner, "solve", solve) for owner in solvers)
+
+
+def scaled_increments(result: Any, factor: float, names: Collection[str]) -> Any:
+    """Return a result whose increments have numbers and fields multiplied by a wrong factor.
+
+    names  names of the numbers and fields; absent ones are left out
+    """
+
+    def scaled(increment: Any) -> Any:
+        found = {name: getattr(increment, name, None) for name in names}
+        wrong = {
+            name: (factor * np.asarray(value) if np.ndim(value) else factor * value)
+            for name, value in found.items()
+            if value is not None
+        }
+        return replace(increment, **wrong)
+
+    return replace(result, increments=tuple(map(scaled, result.increments)))

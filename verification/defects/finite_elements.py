@@ -18,7 +18,13 @@ from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import SHEARING
 from fem_reference.model import ContactModel
 from radial.frictional.coupling import Coupling
-from verification.defects.defect import Defect, Replacements, replaces
+from verification.defects.defect import (
+    Defect,
+    Replacements,
+    changed_results,
+    replaces,
+    scaled_increments,
+)
 
 # Inward displacement of surface points in a Hertz contact of the paper's data, over their radius:
 # (1-2ν)(1+ν) p₀/2E.
@@ -191,23 +197,7 @@ WEAKER = 0.99  # coupling of pressure and shear
 
 
 def _scaled_results(*names: str, factor: float) -> Replacements:
-    """Return a seeded defect that multiplies results of the radial solver by a wrong factor.
-
-    names   results of every increment that are multiplied, such as "pressure"
-    factor  wrong factor; 1 is correct
-    """
-
-    def changed(increment: Any) -> Any:
-        right = {name: getattr(increment, name) for name in names}
-        known = {name: factor * value for name, value in right.items() if value is not None}
-        return replace(increment, **known)
-
-    @replaces(radial, "solve")
-    def solve(whole: Any, *given: Any, **named: Any) -> Any:
-        result = whole(*given, **named)
-        return replace(result, increments=tuple(map(changed, result.increments)))
-
-    return solve
+    return changed_results(lambda result: scaled_increments(result, factor, names), radial)
 
 
 @replaces(radial, "solve")

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from contact_results import cycles, loop
-from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
+from contact_scene import CoulombFriction, HeightMap, Scene, rig
 from contact_scene.checks import axisymmetric
 from contact_scene.quantities import ring_increment
 from contact_scene.stepping.load_path import (
@@ -166,14 +166,6 @@ HISTORIES = (
         "The work of a bulk strain is omitted from the energy balance.",
         ("eccentric_contact",),
         replaces(sheared, "strain_moments")(lambda whole, *given: np.zeros(3)),
-    ),
-    Defect(
-        "strain-of-wrong-layer",
-        "The stress by a bulk strain is that of another layer.",
-        ("strained_ball",),
-        replaces(bulk_strain, "stress_by")(
-            lambda whole, strain, body, layer: whole(strain, body, len(body.layers) - layer)
-        ),
     ),
     Defect(
         "reversal-forgotten",

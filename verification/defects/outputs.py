@@ -14,7 +14,13 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.files import tables
 from contact_results.stress import stress_maxima
 from verification.convergence import observed_order
-from verification.defects.defect import Defect, Replacement, Replacements, replaces
+from verification.defects.defect import (
+    Defect,
+    Replacements,
+    changed_results,
+    replaces,
+    scaled_increments,
+)
 from verification.judging import judgement, outcome
 from verification.running import case_pool
 
@@ -127,47 +133,18 @@ FALSIFIED = (
     "twist",
     "shear_circumferential",
 )
-Change = Callable[[Any], Any]
 
 
-def _changed_results(change: Change) -> Replacements:
-    """Return a seeded defect that changes the results of the semi-analytical and finite-element
-    solvers.
-
-    change  function of the correct result that returns the wrong result
-    """
-
-    def solve(whole: Any, *given: Any, **named: Any) -> Any:
-        return change(whole(*given, **named))
-
-    return tuple(Replacement(owner, "solve", solve) for owner in (semi_analytical, fem_reference))
+def _changed_results(change: Callable[[Any], Any]) -> Replacements:
+    return changed_results(change, semi_analytical, fem_reference)
 
 
-def _scaled_results(factor: Callable[[Any], float]) -> Change:
-    """Return a function that multiplies approach, shift, twist and tractions of a result by a wrong
-    factor.
+def _scaled_results(factor: Callable[[Any], float]) -> Replacements:
+    """Return the defect that multiplies approach, shift, twist and tractions by a wrong factor.
 
     factor  function of the result that returns the factor
     """
-
-    def change(result: Any) -> Any:
-        by = factor(result)
-        return replace(
-            result,
-            increments=tuple(_scaled_increment(increment, by) for increment in result.increments),
-        )
-
-    return change
-
-
-def _scaled_increment(increment: Any, by: float) -> Any:
-    found = {name: getattr(increment, name, None) for name in FALSIFIED}
-    scaled = {
-        name: (by * np.asarray(value) if np.ndim(value) else by * value)
-        for name, value in found.items()
-        if value is not None
-    }
-    return replace(increment, **scaled)
+    return _changed_results(lambda result: scaled_increments(result, factor(result), FALSIFIED))
 
 
 def _relative_cell_size(result: Any) -> float:
@@ -222,19 +199,19 @@ PLANTED = (
         "first-order-error",
         "Results are too large by 0.1 h/a: an error of first order.",
         PLANTED_IN,
-        _changed_results(_scaled_results(lambda r: 1 + FIRST_ORDER * _relative_cell_size(r))),
+        _scaled_results(lambda r: 1 + FIRST_ORDER * _relative_cell_size(r)),
     ),
     Defect(
         "error-floor",
         "Results have an error of ± 0.05 % on any grid.",
         PLANTED_IN,
-        _changed_results(_scaled_results(_error_floor_factor)),
+        _scaled_results(_error_floor_factor),
     ),
     Defect(
         "bias",
         "Results are too large by 0.3 %.",
         PLANTED_IN,
-        _changed_results(_scaled_results(lambda r: 1 + BIAS)),
+        _scaled_results(lambda r: 1 + BIAS),
     ),
 )
 
@@ -243,7 +220,7 @@ NO_RESULTS = (
         "nan",
         "Results are not numbers.",
         SEEN,
-        _changed_results(_scaled_results(lambda r: np.nan)),
+        _scaled_results(lambda r: np.nan),
     ),
     Defect(
         "wrong-length",

@@ -134,7 +134,7 @@ def log_chart(
         logarithmic=True,
         height=height,
     )
-    return Chart(name=name, title=title, caption=caption, rows=((panel,),))
+    return stacked(name, title, caption, panel)
 
 
 def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:

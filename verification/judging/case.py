@@ -116,6 +116,18 @@ class AnyRun(ABC):
 
     @property
     @abstractmethod
+    def count(self) -> int:
+        """Number of cells per side, of elements per contact radius, or of rings of the output."""
+
+    def side_over(self, radius: float) -> float:
+        """Compute the side of an element over the contact radius; of cells and rings likewise [1].
+
+        radius  contact radius [length]
+        """
+        return 1 / self.count
+
+    @property
+    @abstractmethod
     def words(self) -> Mapping[str, str]:
         """Words for measured quantities in the discretisation of this run, by placeholder."""
 
@@ -157,6 +169,13 @@ class Run(AnyRun):
         orders of convergence [length].
         """
         return self.grid.cell_side
+
+    @property
+    def count(self) -> int:
+        return self.grid.cells[0]
+
+    def side_over(self, radius: float) -> float:
+        return self.grid.spacing[0] / radius
 
     @property
     def words(self) -> Mapping[str, str]:
@@ -213,6 +232,10 @@ class SectionRun(AnyRun):
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
 
     @property
+    def count(self) -> int:
+        return self.discretisation.elements_per_radius
+
+    @property
     def words(self) -> Mapping[str, str]:
         within = f"{judged_within(self.discretisation.elements_per_radius):.2g}"
         own = SPRINGS if self.method is Method.PENALTY else HATS
@@ -265,6 +288,10 @@ class RadiiRun(AnyRun):
         number used.
         """
         return 1 / self.fineness
+
+    @property
+    def count(self) -> int:
+        return self.rings
 
     @property
     def words(self) -> Mapping[str, str]:

@@ -46,6 +46,7 @@ from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     OVER_SLIDING_WORK,
+    in_any_increment,
     loop_energy,
 )
 from verification.problems.problem import (
@@ -56,7 +57,7 @@ from verification.problems.problem import (
     ReferenceKind,
     ShiftedGrid,
 )
-from verification.quantities import unit_of
+from verification.quantities import shift_along_x, unit_of
 from verification.solver import Method
 
 PER_OCTAVE = 5
@@ -80,6 +81,9 @@ def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
     return tuple(reversed(counts))
 
 
+# Tolerance that depends on the refinement level: a function of the run and the contact radius.
+ScaledTolerance = Callable[[AnyRun, float], float]
+
 WINDOW_PER_RADIUS = 3.0
 # Number of rings at which the radial solver returns its fields.
 RINGS_SHOWN = 64
@@ -92,52 +96,30 @@ TOLERANCE_ELEMENTS = 64
 
 
 @dataclass(frozen=True)
-class SizedRun:
-    """Hold one refinement level: a run, and the number of cells, elements or rings.
-
-    run    run of a solver
-    count  number of cells per side, of elements per contact radius, or of rings of the output
-    reach  length over which `count` extends, in contact radii
-    """
-
-    run: AnyRun
-    count: int
-    reach: float = 1.0
-
-
-@dataclass(frozen=True)
 class RefinementLevels:
     """Hold the runs of one problem on several refinement levels.
 
     problem   problem with its known answer
-    rungs     levels, coarse to fine
+    runs      levels, coarse to fine
     judged    level on which values are judged
     followed  levels from which orders of convergence are computed; on cells they are without edge
               correction, because only the uncorrected method has an order
     """
 
     problem: Problem
-    rungs: tuple[SizedRun, ...]
-    judged: SizedRun
-    followed: tuple[SizedRun, ...]
+    runs: tuple[AnyRun, ...]
+    judged: AnyRun
+    followed: tuple[AnyRun, ...]
 
     @property
     def uncorrected(self) -> bool:
         """True if orders of convergence are computed from separate runs on cells without edge
         correction.
         """
-        return isinstance(self.judged.run, Run) and self.followed != self.rungs
+        return isinstance(self.judged, Run) and self.followed != self.runs
 
     @property
-    def runs(self) -> tuple[AnyRun, ...]:
-        """Runs from which orders of convergence are computed.
-
-        These are the separate uncorrected runs if there are any, else the runs of all levels.
-        """
-        return tuple(rung.run for rung in (self.followed if self.uncorrected else self.rungs))
-
-    @property
-    def refined(self) -> SizedRun:
+    def refined(self) -> AnyRun:
         """Level whose numerical error is estimated from the coarser levels.
 
         On cells with edge correction this is the finest level without the correction.
@@ -147,26 +129,19 @@ class RefinementLevels:
     @property
     def levels(self) -> tuple[str, ...]:
         """Labels of the runs from which orders of convergence are computed, coarse to fine."""
-        return tuple(rung.run.label for rung in self.followed)
-
-    def of(self, count: int) -> SizedRun:
-        """Return the refinement level with the given number of cells, elements or rings.
-
-        Raises KeyError if there is no such level.
-        """
-        return {rung.count: rung for rung in self.rungs}[count]
+        return tuple(run.label for run in self.followed)
 
 
 def ladder(
-    problem: Problem, rungs: Sequence[SizedRun], followed: Sequence[SizedRun] = ()
+    problem: Problem, runs: Sequence[AnyRun], followed: Sequence[AnyRun] = ()
 ) -> RefinementLevels:
     """Combine runs of a problem to refinement levels; values are judged on the last run.
 
     problem   problem with its known answer
-    rungs     levels, coarse to fine
+    runs      levels, coarse to fine
     followed  levels from which orders of convergence are computed; default: all
     """
-    return RefinementLevels(problem, tuple(rungs), rungs[-1], tuple(followed or rungs))
+    return RefinementLevels(problem, tuple(runs), runs[-1], tuple(followed or runs))
 
 
 def on_cells(
@@ -187,17 +162,17 @@ def on_cells(
     """
     sides = window * problem.radius, window * (problem.across or problem.radius)
 
-    def rung(n: int, offset: tuple[float, float] | None) -> SizedRun:
+    def level(n: int, offset: tuple[float, float] | None) -> Run:
         name, grid = cells_label(n, of), SurfaceGrid((n, n), sides)
         if offset is not None:
             name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
             grid = ShiftedGrid((n, n), sides, offset)
-        return SizedRun(Run(name, problem.scene, grid, problem=of), n, window)
+        return Run(name, problem.scene, grid, problem=of)
 
-    rungs = [rung(n, offset) for n in cells for offset in offsets or (None,)]
+    runs = [level(n, offset) for n in cells for offset in offsets or (None,)]
     corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
-    followed = map(_without_edge_correction, rungs) if corrected and len(rungs) > 1 else rungs
-    return ladder(problem, rungs, tuple(followed))
+    followed = map(_without_edge_correction, runs) if corrected and len(runs) > 1 else runs
+    return ladder(problem, runs, tuple(followed))
 
 
 def on_strips(problem: Problem, of: str = "") -> RefinementLevels:
@@ -211,13 +186,11 @@ def on_strips(problem: Problem, of: str = "") -> RefinementLevels:
     grid = SurfaceGrid((STRIPS, 1), (STRIPS_WINDOW * problem.radius, STRIP_LENGTH))
     grid = align_to_edges(problem.scene, grid)
     label = f"{of}, {STRIPS} strips".removeprefix(", ")
-    run = Run(label, problem.scene, grid, problem=of)
-    return ladder(problem, [SizedRun(run, STRIPS, STRIPS_WINDOW)])
+    return ladder(problem, [Run(label, problem.scene, grid, problem=of)])
 
 
-def _without_edge_correction(rung: SizedRun) -> SizedRun:
-    assert isinstance(rung.run, Run)
-    return replace(rung, run=replace(rung.run, label=f"{rung.run.label}, edge off", edge="off"))
+def _without_edge_correction(run: Run) -> Run:
+    return replace(run, label=f"{run.label}, edge off", edge="off")
 
 
 def with_edge_at(
@@ -238,16 +211,16 @@ def with_edge_at(
     of        name of the problem within its case, with which the labels begin
     """
     meshes = tuple(dict.fromkeys((*((n, MIDDLE) for n in elements), *studied)))
-    rungs = {mesh: _mesh_with_edge(problem, *mesh, of) for mesh in meshes}
+    runs = {mesh: _mesh_with_edge(problem, *mesh, of) for mesh in meshes}
     judged = max(meshes, key=lambda mesh: (mesh[0], -abs(mesh[1] - MIDDLE)))
-    followed = tuple(rungs[mesh] for mesh in studied or meshes)
-    return RefinementLevels(problem, tuple(rungs.values()), rungs[judged], followed)
+    followed = tuple(runs[mesh] for mesh in studied or meshes)
+    return RefinementLevels(problem, tuple(runs.values()), runs[judged], followed)
 
 
-def _mesh_with_edge(problem: Problem, n: int, place: float, of: str) -> SizedRun:
+def _mesh_with_edge(problem: Problem, n: int, place: float, of: str) -> SectionRun:
     mesh = per_radius(n, meshed(problem.radius, n, place))
     name = mesh_label(n, place, of)
-    return SizedRun(SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of), n)
+    return SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of)
 
 
 def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
@@ -282,10 +255,7 @@ def on_elements(
     return ladder(
         problem,
         [
-            SizedRun(
-                SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius), problem=of),
-                n,
-            )
+            SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius), problem=of)
             for n in elements
         ],
     )
@@ -311,15 +281,13 @@ def on_radii(
     at_points  True if torsion is solved at points on rings although a closed form would suffice
     """
 
-    def rung(times: float) -> SizedRun:
+    def level(times: float) -> RadiiRun:
         label = name if times == 1 else f"{name}, {times:g} times as fine"
         scene = problem.scene
-        return SizedRun(
-            RadiiRun(label, scene, times, rings, EXACT, laws, at_points, problem=name), rings
-        )
+        return RadiiRun(label, scene, times, rings, EXACT, laws, at_points, problem=name)
 
-    rungs = {times: rung(times) for times in fineness}
-    return RefinementLevels(problem, tuple(rungs.values()), rungs[1], tuple(rungs.values()))
+    runs = {times: level(times) for times in fineness}
+    return RefinementLevels(problem, tuple(runs.values()), runs[1], tuple(runs.values()))
 
 
 def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementLevels:
@@ -329,11 +297,11 @@ def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementL
     name     label of the new run
     penalty  fields of the discretisation that concern the penalty method
     """
-    run = of.judged.run
+    run = of.judged
     assert isinstance(run, SectionRun)
     mesh = run.discretisation.model_copy(update=penalty)
     sprung = replace(run, label=name, discretisation=mesh, method=Method.PENALTY)
-    return ladder(of.problem, [replace(of.judged, run=sprung)])
+    return ladder(of.problem, [sprung])
 
 
 def cells_label(cells: int, of: str = "") -> str:
@@ -356,25 +324,21 @@ def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
     return f"{name}{elements} elements per radius{aside}"
 
 
-def scaled_tolerance(figure: float, order: float) -> Callable[[SizedRun], float]:
+def scaled_tolerance(figure: float, order: float) -> ScaledTolerance:
     """Create a tolerance that scales with the mesh by the order of convergence.
-
-    Returns a function from a refinement level to its tolerance.
 
     figure  tolerance at 64 elements per contact radius
     order   order of convergence
     """
-    return lambda rung: figure * (TOLERANCE_ELEMENTS / rung.count) ** order
+    return lambda run, _: figure * (TOLERANCE_ELEMENTS / run.count) ** order
 
 
-def part_of_side(part: float) -> Callable[[SizedRun], float]:
+def part_of_side(part: float) -> ScaledTolerance:
     """Create a tolerance that is a fraction of the cell or element side, over the contact radius.
-
-    Returns a function from a refinement level to its tolerance.
 
     part  fraction of the side
     """
-    return lambda rung: part * rung.reach / rung.count
+    return lambda run, radius: part * run.side_over(radius)
 
 
 def named(name: str, of: RefinementLevels) -> RefinementLevels:
@@ -383,12 +347,12 @@ def named(name: str, of: RefinementLevels) -> RefinementLevels:
     name  new label
     of    refinement levels
     """
-    judged = replace(of.judged, run=replace(of.judged.run, label=name))
+    judged = replace(of.judged, label=name)
 
-    def renamed(rungs: tuple[SizedRun, ...]) -> tuple[SizedRun, ...]:
-        return tuple(judged if rung == of.judged else rung for rung in rungs)
+    def renamed(runs: tuple[AnyRun, ...]) -> tuple[AnyRun, ...]:
+        return tuple(judged if run == of.judged else run for run in runs)
 
-    return RefinementLevels(of.problem, renamed(of.rungs), judged, renamed(of.followed))
+    return RefinementLevels(of.problem, renamed(of.runs), judged, renamed(of.followed))
 
 
 ASKED = "required of this scene by the project's accuracy targets"
@@ -741,21 +705,21 @@ SHEAR_AROUND = error_norm(
 LARGEST_SHIFT_ERROR = error_norm(
     "largest_shift_error",
     "largest difference of the shift in any increment",
-    lambda result, _, problem: problem.ends[-1].largest_shift_error(result),
+    in_any_increment(lambda _, found, exact: abs(shift_along_x(found) - exact.shift)),
     unit="m",
     over=OVER_LARGEST_SHIFT,
 )
 LARGEST_STICK_RADIUS_ERROR = error_norm(
     "largest_stick_radius_error",
     "largest difference of the stick radius in any increment",
-    lambda result, _, problem: problem.ends[-1].largest_stick_radius_error(result),
+    in_any_increment(lambda _, found, exact: abs((found.stick_radius or 0.0) - exact.stick_radius)),
     unit="m",
     over=OVER_RADIUS,
 )
 LARGEST_SHEAR_ERROR = error_norm(
     "largest_shear_error",
     "largest Σ|q - q_exact| / Σµp of any increment",
-    lambda result, _, problem: problem.ends[-1].largest_shear_error(result),
+    in_any_increment(field_errors.shear_error_of_loop),
     "Σµp",
 )
 ENERGY_PER_CYCLE = Observable(
@@ -768,7 +732,7 @@ ENERGY_PER_CYCLE = Observable(
 )
 
 
-Allowed = float | Mapping[int, float] | Callable[[SizedRun], float]
+Allowed = float | Mapping[int, float] | ScaledTolerance
 Results = Mapping[str, Any]
 Drawing = Callable[[Results], Chart]
 
@@ -887,10 +851,10 @@ def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
     if ladder.uncorrected:
         named = {quantity.run for quantity in quantities}
         if not rows or not all(isinstance(row, Falls) for row in rows):
-            named.add(ladder.judged.run.label)
-        corrected = tuple(rung.run for rung in ladder.rungs if rung.run.label in named)
+            named.add(ladder.judged.label)
+        corrected = tuple(run for run in ladder.runs if run.label in named)
         ordered = any(isinstance(row, Falls | Refined) for row in rows)
-        runs = (*corrected, *(runs if ordered else ()))
+        runs = (*corrected, *(ladder.followed if ordered else ()))
     return Judged(
         runs,
         quantities,
@@ -969,46 +933,50 @@ def case(
 
 def _quantities(row: Row, ladder: RefinementLevels) -> tuple[Quantity, ...]:
     if isinstance(row, Refined):
-        cap = _allowed(row.cap, ladder.judged)
+        cap = _allowed(row.cap, ladder.judged, ladder)
         derived = Derived(ladder.levels, row.order, cap, row.because)
         found = (_quantity(row.what, ladder, ladder.refined, derived),)
-        if ladder.refined.run.label == ladder.judged.run.label or row.what.scalar is None:
+        if ladder.refined == ladder.judged or row.what.scalar is None:
             return found
         # With the edge correction there is no order of convergence from which a tolerance follows.
         return (*found, _quantity(row.what, ladder, ladder.judged, Required(cap, row.because)))
     if not isinstance(row, Within):
         return ()
     if isinstance(row.allowed, Mapping):
-        rungs = [rung for rung in ladder.rungs if rung.count in row.allowed]
+        runs = [run for run in ladder.runs if run.count in row.allowed]
     else:
-        rungs = list(ladder.rungs) if row.each else [ladder.judged]
+        runs = list(ladder.runs) if row.each else [ladder.judged]
     return tuple(
         _quantity(
-            row.what, ladder, rung, Required(_allowed(row.allowed, rung), row.because), row.name
+            row.what,
+            ladder,
+            run,
+            Required(_allowed(row.allowed, run, ladder), row.because),
+            row.name,
         )
-        for rung in rungs
+        for run in runs
     )
 
 
-def _allowed(allowed: Allowed, rung: SizedRun) -> float:
+def _allowed(allowed: Allowed, run: AnyRun, ladder: RefinementLevels) -> float:
     if callable(allowed):
-        return allowed(rung)
-    return allowed[rung.count] if isinstance(allowed, Mapping) else allowed
+        return allowed(run, ladder.problem.radius)
+    return allowed[run.count] if isinstance(allowed, Mapping) else allowed
 
 
 def _quantity(
     what: Observable,
     ladder: RefinementLevels,
-    rung: SizedRun,
+    run: AnyRun,
     tolerance: Required | Derived,
     name: str = "",
 ) -> Quantity:
     problem = ladder.problem
     return Quantity(
         name=name or what.verdict,
-        meaning=what.said(rung.run.words),
+        meaning=what.said(run.words),
         unit=what.unit,
-        run=rung.run.label,
+        run=run.label,
         measure=what.read(problem),
         reference=what.reference(problem),
         tolerance=tolerance,
@@ -1024,7 +992,7 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
     return Order(
         name=f"order_of_{what.name}",
         of=what.of,
-        meaning=row.meaning or what.said(ladder.judged.run.words),
+        meaning=row.meaning or what.said(ladder.judged.words),
         levels=ladder.levels,
         error=what.error(ladder.problem),
         expected=row.expected,
@@ -1034,12 +1002,12 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
 
 
 def _finding(row: Reported, ladder: RefinementLevels) -> Finding:
-    what, rung = row.what, ladder.judged
+    what, run = row.what, ladder.judged
     return Finding(
         what.verdict,
-        what.said(rung.run.words),
+        what.said(run.words),
         what.unit,
-        rung.run.label,
+        run.label,
         what.read(ladder.problem),
         row.remark,
     )

@@ -21,7 +21,7 @@ from verification.convergence.observed_order import (
     error_line,
     order_text,
 )
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.judging.case import Run
 from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
 from verification.observed.ring_errors import SHOWN, at_radii
@@ -74,7 +74,7 @@ def convergence_chart(
         "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
         "lines. Dashed below: the expected slopes."
     )
-    return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
+    return stacked(name, title, f"{caption} {legend}", panel)
 
 
 def _error_curves(
@@ -191,9 +191,7 @@ def _with_difference(
     """Draw profiles, and computed minus exact values in a panel below."""
     above = Panel(x_label="", y_label=labels.y_label, curves=tuple(profiles), height=2.6)
     below = Panel(x_label=labels.x_label, y_label=f"Δ{labels.y_label}", curves=tuple(differences))
-    return Chart(
-        name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
-    )
+    return stacked(labels.name, labels.title, labels.caption, above, below)
 
 
 def radial_chart(
@@ -272,7 +270,7 @@ def profile(
     unit     unit of the ordinate, in SI
     drawn    fields to draw; default: the pressure at the end of the last step
     """
-    problem, run = ladder.problem, ladder.judged.run
+    problem, run = ladder.problem, ladder.judged
     fields = drawn or (PRESSURE,)
 
     def draw(results: Mapping[str, Any]) -> Chart:
@@ -332,7 +330,7 @@ def convergence(
     also    observables whose errors are drawn without an expected slope
     beside  further refinement levels with equal sizes, by the name of their curves
     """
-    cells = isinstance(ladder.judged.run, Run)
+    cells = isinstance(ladder.judged, Run)
     unit = ladder.problem.radius if cells else 1.0
     expected = {row.what.label: row for row in rows if isinstance(row, Falls)}
     ladders = {"": ladder} | {f", {of}": other for of, other in (beside or {}).items()}
@@ -348,7 +346,7 @@ def convergence(
             name,
             title,
             caption,
-            [rung.run.spacing / unit for rung in ladder.followed],
+            [run.spacing / unit for run in ladder.followed],
             found,
             {label: row.expected for label, row in expected.items()},
             f"{'cell' if cells else 'element'} side / contact radius",

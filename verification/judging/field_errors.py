@@ -44,9 +44,18 @@ def _exact_on_cells(result: Any, end: Any, exact: Callable[..., Field], problem:
     exact    exact field as a function of the distance from the axis, or of x and y
     problem  problem that the field belongs to
     """
+    if is_corrected(end):
+        return exact_means(result, exact, problem)
+    return problem.on_surface(exact, *result.grid.coordinates())
+
+
+def exact_means(result: Any, exact: Callable[..., Field], problem: Problem) -> Field:
+    """Compute the means (nx, ny) of an exact field over the cells of a result.
+
+    exact    exact field as a function of the distance from the axis, or of x and y
+    problem  problem that the field belongs to
+    """
     x, y = result.grid.coordinates()
-    if not is_corrected(end):
-        return problem.on_surface(exact, x, y)
     sides = np.full_like(x, result.grid.spacing[0]), np.full_like(x, result.grid.spacing[1])
     return cell_means(lambda x, y: problem.on_surface(exact, x, y), x, y, sides)
 
@@ -83,6 +92,27 @@ def pressure_l2(result: Any, step: int, problem: Problem) -> float:
     return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
 
 
+def relative_pressure_error(inner: float, outer: float) -> Callable[[Any, int, Problem], float]:
+    """Return the measure of the largest pressure error |p / p_exact - 1| between two radii [1].
+
+    The bounds exclude an infinite pressure at an apex or a rim, and the zero at a contact edge. The
+    points are cells, strips or rings.
+
+    inner, outer  bounds of the distance from the axis, over the contact radius
+    """
+
+    def measure(result: Any, step: int, problem: Problem) -> float:
+        end = result.steps[step]
+        on_cells = hasattr(result, "grid")
+        x, y = result.grid.coordinates() if on_cells else (end.radii, np.zeros_like(end.radii))
+        part = np.hypot(x, y) / problem.radius
+        judged = (part >= inner) & (part < outer)
+        exact = problem.on_surface(problem.ends[step].pressure, x[judged], y[judged])
+        return float(np.max(np.abs(end.pressure[judged] / exact - 1)))
+
+    return measure
+
+
 def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest pressure error of finite elements away from the contact edge, over p_H
     [1].
@@ -115,6 +145,16 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
         known = _exact_on_cells(result, end, exact, problem)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
     return ring_errors.relative_l1(end, end.shear_along_load, exact, problem.radius) / FRICTION
+
+
+def shear_error_of_loop(result: Any, found: Any, exact: Any) -> float:
+    """Compute the shear error Σ|q - q_exact| / Σµp of an increment of a fretting loop on cells [1].
+
+    found  increment of the result
+    exact  exact state of the contact, with the shear as a function of the distance from the axis
+    """
+    r = np.hypot(*result.grid.coordinates())
+    return norms.shear_error(shear_of(found), exact.shear(r), FRICTION * found.pressure)
 
 
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> Mask:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 
@@ -36,9 +35,14 @@ from verification.observed.contact_state import (
     Balance,
     ContactState,
 )
+from verification.observed.ring_points import (
+    angle_weights,
+    displacement_by_harmonics,
+    displacement_per_motion,
+    loads_and_motions,
+)
 
 ANGULAR = (Path.HARMONICS, Path.WHOLE_CIRCLE)
-TWISTED = (Path.TWISTING, Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE)
 
 # Gauss points of an element, exact for the product of r and a linear function.
 PLACES, PARTS = np.polynomial.legendre.leggauss(2)
@@ -101,23 +105,9 @@ class Rings:
 
     @cached_property
     def driven(self) -> Field:
-        """Displacement of the points (3, 2, rings, angles) per unit motion of the indenter.
-
-        The motions are the shifts along and across the load [1], and the twist, whose displacement
-        is the mean over each ring [length]. Motions that are excluded on the path have zero
-        displacement.
-        """
-        cos, sin = np.cos(self.angles), np.sin(self.angles)
-        found = np.zeros((3, 2, *self._shape))
-        if self.path is Path.SHEARING or len(self.angles) > 1:
-            found[0] = np.stack([cos, -sin])[:, None]
-        if self._covers_circle:
-            found[1] = np.stack([sin, cos])[:, None]
-        if self.path in TWISTED:
-            found[2, 1] = self.on_grid(self.arms)
-            if len(self.angles) > 1:
-                found[2, :, 0] = 0.0
-        return found
+        """Displacement of the points (3, 2, rings, angles) per unit motion of the indenter."""
+        along = self.path is Path.SHEARING or len(self.angles) > 1
+        return displacement_per_motion(self.arms, self.angles, along=along)
 
     @property
     def arms(self) -> Field:
@@ -185,37 +175,34 @@ class Rings:
         p  pressure (rings, angles) [force/length²]
         q  shear (2, rings, angles) [force/length²]
         """
-        if self._on_strips:
-            normal = self.model.compliance(LINE_PRESSING).matrix[1, :, 1]
-            u, u_z = np.zeros((2, *self._shape)), self._ring_means(normal, p[:, 0])[:, None]
+        if self._on_strips or self.path is Path.SHEARING:
+            pressing = LINE_PRESSING if self._on_strips else PRESSING
+            u = np.zeros((3, *self._shape))
+            u[2, :, 0] = self._ring_means(self.model.compliance(pressing).matrix[1, :, 1], p[:, 0])
             if self.path is Path.SHEARING:
-                across = self.model.compliance(LINE_SHEARING).matrix[0, :, 0]
-                u[0, :, 0] = self._ring_means(across, q[0, :, 0])
-            return u, u_z
-        if self.path in (Path.SHEARING, Path.TWISTING):
-            u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
-            if component:
-                nodal = self.model.compliance(TORSION).matrix[0, :, 0]
-            else:  # the mean around the axis along the load, per nodal force along the load
-                C, sign = self.model.compliance(SHEARING).matrix[:2, :, :2], np.array([1.0, -1.0])
-                nodal = 0.5 * np.einsum("i,j,iajb->ab", sign, sign, C)
-            u[component, :, 0] = self._ring_means(nodal, q[component, :, 0])
-            normal = self.model.compliance(PRESSING).matrix[1, :, 1]
-            return u, self._ring_means(normal, p[:, 0])[:, None]
-        tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
-        families = (False, True) if self.path in TWISTED else (False,)
-        for n, turned in product(range(self._highest + 1), families):
-            wave = self._angular_functions(n, turned=turned)
-            loads = self._angular_amplitudes(wave, tractions)
-            if not np.any(loads):
-                continue
-            condensed = self.model.compliance(TORSION if turned and n == 0 else motion(n))
-            for i, a in enumerate(condensed.motion.components):
-                for j, b in enumerate(condensed.motion.components):
-                    u[a] += np.outer(self._ring_means(condensed.matrix[i, :, j], loads[b]), wave[a])
+                u[0, :, 0] = self._ring_means(self._compliance_along_load(), q[0, :, 0])
+            return u[:2], u[2]
+        tractions = np.stack([*q, p])
+        u = displacement_by_harmonics(tractions, self.angles, self._highest, self._of_harmonic)
         if len(self.angles) > 1:
             self._join_on_axis(u)
         return u[:2], u[2]
+
+    def _compliance_along_load(self) -> Field:
+        """Return the nodal compliance (n, n) along the load, as a mean around the axis."""
+        if self._on_strips:
+            return self.model.compliance(LINE_SHEARING).matrix[0, :, 0]
+        C, sign = self.model.compliance(SHEARING).matrix[:2, :, :2], np.array([1.0, -1.0])
+        return np.asarray(0.5 * np.einsum("i,j,iajb->ab", sign, sign, C))
+
+    def _of_harmonic(self, m: int, turned: bool, loads: Field) -> Field:
+        """Compute the amplitudes (3, rings) of the displacement by those of the tractions."""
+        condensed = self.model.compliance(TORSION if turned and m == 0 else motion(m))
+        found = np.zeros_like(loads)
+        for i, a in enumerate(condensed.motion.components):
+            for j, b in enumerate(condensed.motion.components):
+                found[a] += self._ring_means(condensed.matrix[i, :, j], loads[b])
+        return found
 
     @property
     def _shape(self) -> tuple[int, int]:
@@ -227,14 +214,10 @@ class Rings:
         return self.model.plane
 
     @property
-    def _covers_circle(self) -> bool:
-        """True if the angles cover the whole circle, and not half of it."""
-        return len(self.angles) > 1 and self.path is Path.WHOLE_CIRCLE
-
-    @property
     def _highest(self) -> int:
         """Highest angular harmonic of the fields."""
-        return len(self.angles) // 2 if self._covers_circle else len(self.angles) - 1
+        whole = self.path is Path.WHOLE_CIRCLE
+        return len(self.angles) // 2 if whole else len(self.angles) - 1
 
     @cached_property
     def _angle_weights(self) -> Field:
@@ -242,35 +225,7 @@ class Rings:
 
         In a line contact the weight is 2, for both sides.
         """
-        if self._on_strips:
-            return np.full(1, 2.0)
-        if len(self.angles) == 1 or self._covers_circle:
-            return np.full(len(self.angles), 2 * np.pi / len(self.angles))
-        share = np.full(len(self.angles), 2 * self.angles[1])
-        share[[0, -1]] /= 2
-        return share
-
-    def _angular_functions(self, n: int, *, turned: bool) -> Field:
-        """Return the cosines and sines (3, angles) by which the r, θ and z components of harmonic n
-        vary.
-
-        turned  True for the harmonic turned by a quarter wave: (sin nθ, -cos nθ, sin nθ)
-        """
-        cos, sin = np.cos(n * self.angles), np.sin(n * self.angles)
-        # The angles are multiples of π/J, at which the sine of the highest harmonic J is zero.
-        sin[(n % max(self._highest, 1) == 0) | (np.abs(np.sin(self.angles)) < 1e-9)] = 0.0
-        return np.stack([sin, -cos, sin] if turned else [cos, sin, cos])
-
-    def _angular_amplitudes(self, waves: Field, tractions: Field) -> Field:
-        """Compute the amplitudes (3, rings) of one harmonic of tractions (3, rings, angles).
-
-        The trapezium rule over the angles is exact for these harmonics.
-
-        waves  functions of the angle of the three components (3, angles)
-        """
-        norms = np.sum(self._angle_weights * waves**2, axis=1)
-        found = np.einsum("cra,ca,a->cr", tractions, waves, self._angle_weights)
-        return found / np.where(norms > 0, norms, 1.0)[:, None]
+        return 2.0 * np.ones(1) if self._on_strips else 2 * np.pi * angle_weights(self.angles)
 
     def _ring_means(self, nodal: Field, amplitude: Field) -> Field:
         displaced = nodal @ (self.basis.products @ amplitude)
@@ -329,7 +284,7 @@ def _state_on_elements(
     along, u_z = rings.displacement(p, q)
     if result.plan.path in ANGULAR:  # contact springs are treated as part of the bodies
         along, u_z, give = along + give * q, u_z + give * p, 0.0
-    forces, motions = _loads_and_motions(increment, result)
+    forces, motions = loads_and_motions(increment, result.plan.direction)
     if motions is None and not np.any(forces):
         motions = np.zeros(3)
     approach = increment.approach
@@ -381,19 +336,3 @@ def _state_on_elements(
         unseen=skipped,
         open=skipped,
     )
-
-
-def _loads_and_motions(increment: Increment, result: Result) -> tuple[Field, Field | None]:
-    """Return the tangential loads and the tangential motions of the indenter, each (3,).
-
-    The loads are the forces along and across the load, and the torque. The motions are the shifts
-    and the twist. They are None if one of them is undefined.
-    """
-    x, y = result.plan.direction
-    axes = np.array([[x, y], [-y, x]])
-    forces = np.array([*axes @ (increment.tangential_force or (0.0, 0.0)), increment.torque or 0.0])
-    shift, twist = increment.tangential_shift, increment.twist
-    unknown = shift is None and increment.tangential_force is not None
-    if unknown or (twist is None and increment.torque is not None):
-        return forces, None
-    return forces, np.array([*axes @ (shift or (0.0, 0.0)), twist or 0.0])

@@ -28,7 +28,12 @@ from verification.observed.contact_state import (
     Balance,
     ContactState,
 )
-from verification.observed.ring_displacement import RingDisplacement, angle_weights
+from verification.observed.ring_displacement import RingDisplacement
+from verification.observed.ring_points import (
+    angle_weights,
+    displacement_per_motion,
+    loads_and_motions,
+)
 
 # Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
 # contact on hat functions.
@@ -112,14 +117,16 @@ def _state_on_radii(
     angles = np.zeros(1) if now.angles is None else now.angles
     w = weights[:, None] * angle_weights(angles)
     limit = (result.scene.friction or FRICTIONLESS).at_radii(r[:, None]).limit(p)
-    carried = _carried_loads(now, w, arm[:, None], q, result.plan.direction)
-    force, torque = now.tangential_force or (0.0, 0.0), now.torque or 0.0
+    driven = displacement_per_motion(arm, angles, along=now.angles is not None)
+    carried = np.sum(w * driven * q, axis=(1, 2, 3))
+    loads, motions = loads_and_motions(now, result.plan.direction)
+    moved = np.zeros(3) if motions is None else motions
     most = float(np.sum(w * limit)) or now.normal_force
     balances = [Balance(float(np.sum(w * p)), now.normal_force, now.normal_force)]
     if np.any(q) or np.any(limit):
-        balances.append(Balance(carried[:2], force, most))
+        balances.append(Balance(carried[:2], loads[:2], most))
         if now.torque is not None:
-            balances.append(Balance(carried[2], torque, most * now.contact_radius))
+            balances.append(Balance(carried[2], loads[2], most * now.contact_radius))
     strain = 0.0 if now.bulk_strain is None else now.bulk_strain[0]
     undeformed, opened = np.broadcast_to(f[:, None], p.shape), now.gap.reshape(p.shape)
     state = ContactState(
@@ -132,8 +139,8 @@ def _state_on_radii(
         limit,
         slip,
         slip,
-        np.array([now.normal_force, *force, torque, float(np.sum(w * arm[:, None] * q[0]))]),
-        np.array([now.approach, *(now.tangential_shift or (0.0, 0.0)), now.twist or 0.0, -strain]),
+        np.array([now.normal_force, *loads, float(np.sum(w * arm[:, None] * q[0]))]),
+        np.array([now.approach, *moved, -strain]),
         now.approach,
         () if few else tuple(balances),
         least_work=now.dissipated_energy or 0.0,
@@ -143,7 +150,7 @@ def _state_on_radii(
     u = elastic.by(np.stack([*q, p]), angles)
     gap = undeformed + u[2] - now.approach
     off = float(np.max(np.abs(np.where(p > 0, 0.0, gap) - opened)) / now.approach)
-    passed = u[:2] - _driven(now, angles, arm[:, None], result.plan.direction)
+    passed = u[:2] - np.tensordot(moved, driven, axes=1)
     passed[0] += strain * arm[:, None]
     passed[:, 0] = slip[:, 0]  # the axis is one point with the mean of its angles
     return replace(
@@ -153,45 +160,6 @@ def _state_on_radii(
         stated=(off,),
         between=now.angles is not None,
     )
-
-
-def _driven(now: Increment, angles: Field, arm: Field, along: tuple[float, float]) -> Field:
-    """Compute the displacement r, θ of the rings by shift and twist of the indenter [length].
-
-    now     increment
-    angles  angles of the points from the direction of the load [radian]
-    arm     distance of the rings from the axis (rings, 1) [length]
-    along   unit vector of the direction of angle zero
-    """
-    (x, y), shift = along, now.tangential_shift or (0.0, 0.0)
-    ahead, aside = x * shift[0] + y * shift[1], x * shift[1] - y * shift[0]
-    cos, sin = np.cos(angles), np.sin(angles)
-    outward = ahead * cos + aside * sin + 0 * arm
-    return np.stack([outward, aside * cos - ahead * sin + (now.twist or 0.0) * arm])
-
-
-def _carried_loads(
-    now: Increment, w: Field, arm: Field, q: Field, along: tuple[float, float]
-) -> Field:
-    """Compute the forces along x and y and the torque about z of a shear traction, as an array
-    (3,).
-
-    now    increment with the angles of the points
-    w      area of the points (rings, angles) [length²]
-    arm    distance of the rings from the axis (rings, 1) [length]
-    q      radial and circumferential shear (2, rings, angles) [force/length²]
-    along  unit vector of the direction of angle zero
-    """
-    outward, around = q
-    if now.angles is None:
-        return np.array([0.0, 0.0, np.sum(w * arm * around)])
-    cos, sin = np.cos(now.angles), np.sin(now.angles)
-    x, y = along
-    ahead = np.sum(w * (outward * cos - around * sin))
-    if now.angles[-1] <= np.pi:  # the other half is the mirror image
-        return np.array([x * ahead, y * ahead, 0.0])
-    aside = np.sum(w * (outward * sin + around * cos))
-    return np.array([x * ahead - y * aside, y * ahead + x * aside, np.sum(w * arm * around)])
 
 
 def _has_few_rings(now: Increment, result: Result) -> bool:

@@ -25,6 +25,7 @@ from contact_scene.array_types import Field
 from radial.response.bessel_functions import bessel_functions
 from radial.response.wavenumbers import waves as wave_quadrature
 from semi_analytical.frf.response_matrix import surface_response
+from verification.observed.ring_points import displacement_by_harmonics
 
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an
 # error of 3e-5 for the rings of the solver, of which the smallest are 1/1000 of this radius apart.
@@ -35,18 +36,6 @@ PER_RING = 14.0
 # Gauss points of an element between two rings: n resolve a change of the phase of 4 (n - 6).
 PLACES, PARTS = np.polynomial.legendre.leggauss(12)
 BLOCK = 256  # wavenumbers that are transformed at a time
-ABSENT = 1e-9  # below this mean square a wave is zero at all angles, up to round-off
-
-
-def angle_weights(angles: Field) -> Field:
-    """Return the weights (angles,) of means over a circle; both ends of half a circle are included.
-
-    angles  angles of the points, one, half a circle or the whole circle [radian]
-    """
-    weights = np.ones(len(angles))
-    if len(angles) > 1 and angles[-1] <= np.pi:
-        weights[[0, -1]] = 0.5
-    return weights / np.sum(weights)
 
 
 @dataclass(frozen=True)
@@ -69,20 +58,10 @@ class RingDisplacement:
                    [force/length²]
         angles     angles of the points, one, half a circle or the whole circle [radian]
         """
-        found, weights = np.zeros_like(tractions), angle_weights(angles)
         highest = 0 if len(angles) == 1 else self.highest
-        half = len(angles) > 1 and angles[-1] <= np.pi  # no waves turned by a quarter
-        for m in range(highest + 1):
-            cos, sin = np.cos(m * angles), np.sin(m * angles)
-            waves = np.stack([cos, sin, cos]), np.stack([sin, -cos, sin])
-            for wave in waves[:1] if half else waves:
-                norms = np.sum(weights * wave**2, axis=1)
-                loads = np.einsum("cra,ca,a->cr", tractions, wave, weights)
-                loads /= np.where(norms > ABSENT, norms, np.inf)[:, None]
-                found += self._of_harmonic(m, loads)[:, :, None] * wave[:, None]
-        return found
+        return displacement_by_harmonics(tractions, angles, highest, self._of_harmonic)
 
-    def _of_harmonic(self, m: int, loads: Field) -> Field:
+    def _of_harmonic(self, m: int, _: bool, loads: Field) -> Field:
         """Compute the amplitudes (3, rings) of the displacement by those of the tractions."""
         shares, hats, (c11, c12, c22, across) = *self._hats, self._responses
         # For m = 0 the order -1 is J_{-1} = -J_1.

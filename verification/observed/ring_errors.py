@@ -22,27 +22,6 @@ if TYPE_CHECKING:
     from fem_reference import Increment
 
 
-def normal_force(result: Result) -> float:
-    """Return the normal force of a result at the end of the last load step [force]."""
-    return float(result.steps[-1].normal_force)
-
-
-def approach(result: Result) -> float:
-    """Return the approach of the bodies since first touch at the end of the last load step
-    [length].
-    """
-    reached = result.steps[-1].approach
-    assert reached is not None  # a line contact has a reference length
-    return float(reached)
-
-
-def peak_pressure(result: Result) -> float:
-    """Return the largest pressure of all cells or rings at the end of the last load step
-    [force/length²].
-    """
-    return float(result.steps[-1].peak_pressure)
-
-
 def central_pressure(result: Any, step: int = -1) -> float:
     """Return the pressure on the contact axis at the end of a load step [force/length²].
 
@@ -65,22 +44,6 @@ def central_pressure(result: Any, step: int = -1) -> float:
     near, far = float(np.mean(pressure[first])), float(np.mean(pressure[second]))
     squares = float(np.mean(r[first] ** 2)), float(np.mean(r[second] ** 2))
     return near + (near - far) * squares[0] / (squares[1] - squares[0])
-
-
-def contact_radius(result: Result) -> float:
-    """Return the contact radius √(contact area / π) of a result at the end of the last load step
-    [length].
-    """
-    return float(result.steps[-1].contact_radius)
-
-
-def stick_radius(result: Result, step: int = -1) -> float:
-    """Return the radius √(stick area / π) at the end of a load step [length]; NaN without friction.
-
-    step  index of the load step; default: the last
-    """
-    radius = result.steps[step].stick_radius
-    return float("nan") if radius is None else float(radius)
 
 
 def is_corrected(increment: Any) -> bool:

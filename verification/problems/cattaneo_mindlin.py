@@ -7,7 +7,7 @@ well.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,6 +16,7 @@ import numpy as np
 from scipy.integrate import quad
 
 from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, LoadStep, Scene
+from contact_scene.array_types import Field
 from verification.closed_forms.cattaneo_mindlin import (
     CycledContact,
     GrownContact,
@@ -23,7 +24,6 @@ from verification.closed_forms.cattaneo_mindlin import (
 )
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
-from verification.norms import shear_error
 from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
@@ -41,7 +41,7 @@ from verification.problems.problem import (
     pressing,
     tangential_step,
 )
-from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
+from verification.quantities import energy_between, force_along_x
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
@@ -215,30 +215,6 @@ class ExactLoop:
                 state = state.loaded_to(force_along_x(increment))
                 yield increment, state
 
-    def largest_shear_error(self, result: Result) -> float:
-        """Compute the largest shear error Σ|q - q_exact| / Σµp of any increment of a fretting loop
-        [1].
-
-        result  result on cells; increments of the normal loading are left out
-        """
-        r = np.hypot(*result.grid.coordinates())
-        return float(
-            np.max(
-                [
-                    shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
-                    for i, exact in self.along(result)
-                ]
-            )
-        )
-
-    def largest_shift_error(self, result: Result) -> float:
-        """Compute the largest error of the tangential shift in any increment of a fretting loop
-        [length].
-
-        result  result on cells; increments of the normal loading are left out
-        """
-        return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
-
     @property
     def cycled(self) -> CycledContact:
         """Steady fretting cycle between the tangential forces 0.9 µW and -0.9 µW, exact
@@ -247,44 +223,35 @@ class ExactLoop:
         force = AMPLITUDE * FRICTION_LIMIT
         return CycledContact(partial_slip(self.material, force), HERTZ.peak_pressure)
 
-    def largest_slip_amplitude_error(self, result: Result) -> float:
-        """Compute the largest error of the slip amplitude in the contact area of a fretting loop
-        [length].
+    def largest_slip_error(self, result: Result, slip: Field, cycles: float) -> float:
+        """Compute the largest error of a slip amplitude or distance in the contact area [length].
 
-        The slip amplitude is half the range of slip in a cycle.
+        The slip amplitude is half the range of slip in a cycle. The slip distance at the end of the
+        loop is 5 times as long, because slip reverses only where the force does.
 
         result  result on cells of the fretting loop
+        slip    computed slip amplitude or distance (nx, ny) [length]
+        cycles  exact value over the slip amplitude
         """
         a = HERTZ.contact_radius
         r = np.hypot(*result.grid.coordinates())
-        expected = self.cycled.slip_amplitude(np.minimum(r, a))
-        error = np.abs(loop_cycle(result).slip_amplitude - expected)
+        error = np.abs(slip - cycles * self.cycled.slip_amplitude(np.minimum(r, a)))
         return float(np.max(error[r < a]))
 
-    def largest_slip_distance_error(self, result: Result) -> float:
-        """Compute the largest error of the accumulated slip distance at the end of a fretting loop
-        [length].
 
-        The exact distance is 5 times the slip amplitude, because slip reverses only where the force
-        does.
+def in_any_increment(
+    error: Callable[[Result, Increment, TangentialHistory], float],
+) -> Callable[[Result, int, Problem], float]:
+    """Return the measure of the largest error of any increment after the pressing of a loop.
 
-        result  result on cells of the fretting loop
-        """
-        a, way = HERTZ.contact_radius, result.steps[-1].slip_distance
-        assert way is not None
-        r = np.hypot(*result.grid.coordinates())
-        expected = 5 * self.cycled.slip_amplitude(np.minimum(r, a))
-        return float(np.max(np.abs(way - expected)[r < a]))
+    error  function of the result, the increment and its exact state
+    """
 
-    def largest_stick_radius_error(self, result: Result) -> float:
-        """Compute the largest error of the stick radius in any increment of a fretting loop
-        [length].
+    def measure(result: Result, _: int, problem: Problem) -> float:
+        along = problem.ends[-1].along(result)
+        return float(np.max([error(result, increment, exact) for increment, exact in along]))
 
-        result  result on cells; increments of the normal loading are left out
-        """
-        return float(
-            np.max([abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)])
-        )
+    return measure
 
 
 def fretting_loop_problem(title: str, material: IsotropicMaterial, quarter: int) -> Problem:

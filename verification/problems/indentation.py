@@ -206,6 +206,11 @@ class Indentation(TabulatedContact):
         """Radius of the stick zone over the contact radius, from the reference table [1]."""
         return float(self.row["c_over_a"])
 
+    @property
+    def stick_radius(self) -> float:
+        """Radius of the stick zone, from the reference table [length]."""
+        return self.stick_part * self.contact_radius
+
     def problem(self, increments: int) -> Problem:
         """Create the verification problem of the rigid ball on the body with this tabulated answer.
 

@@ -695,49 +695,39 @@ def _recording(baseline: Baseline | None, level: str) -> Recording | None:
 
 
 def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy) -> CaseOutcome:
-    if recorded is None:
-        return _without_comparison(case)
-    origin = Origin(
-        commit=recorded.by.commit,
-        changed=recorded.by.changed,
-        date=recorded.by.date,
-        reason=recorded.by.reason,
-        differs=tuple(_differences(recorded.by, made_by)),
-    )
-    quantities = {quantity.key: quantity for quantity in recorded.quantities}
-    findings = {finding.key: finding for finding in recorded.findings}
-    verdicts = tuple(
-        verdict.model_copy(
-            update={"regression": quantity_change(verdict, quantities.get(key_of(verdict)), origin)}
+    """Compare a case with its recording, or remove an earlier comparison if there is none."""
+    origin = None
+    if recorded is not None:
+        origin = Origin(
+            commit=recorded.by.commit,
+            changed=recorded.by.changed,
+            date=recorded.by.date,
+            reason=recorded.by.reason,
+            differs=tuple(_differences(recorded.by, made_by)),
         )
-        for verdict in case.verdicts
-    )
-    measured = tuple(
-        finding.model_copy(
-            update={"regression": finding_change(finding, findings.get(key_of(finding)), origin)}
-        )
-        for finding in case.findings
-    )
+    quantities = {one.key: one for one in recorded.quantities} if recorded else {}
+    findings = {one.key: one for one in recorded.findings} if recorded else {}
+
+    def change_of(number: Verdict | FindingRecord) -> Change | None:
+        key = key_of(number)
+        if origin is None:
+            return None
+        if isinstance(number, Verdict):
+            return quantity_change(number, quantities.get(key), origin)
+        return finding_change(number, findings.get(key), origin)
+
     return case.model_copy(
         update={
             "baseline": origin,
-            "verdicts": verdicts,
-            "findings": measured,
-            "counts": tuple(counter_changes(case, recorded)),
-            "gone": tuple(_gone(case, recorded)),
-        }
-    )
-
-
-def _without_comparison(case: CaseOutcome) -> CaseOutcome:
-    nothing: Change | None = None
-    return case.model_copy(
-        update={
-            "baseline": None,
-            "verdicts": tuple(v.model_copy(update={"regression": nothing}) for v in case.verdicts),
-            "findings": tuple(f.model_copy(update={"regression": nothing}) for f in case.findings),
-            "counts": (),
-            "gone": (),
+            **{
+                name: tuple(
+                    number.model_copy(update={"regression": change_of(number)})
+                    for number in getattr(case, name)
+                )
+                for name in ("verdicts", "findings")
+            },
+            "counts": tuple(counter_changes(case, recorded)) if recorded else (),
+            "gone": tuple(_gone(case, recorded)) if recorded else (),
         }
     )
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from verification.judging.outcome import ChangeKind
+from verification.judging.outcome import ChangeKind, CounterChange
+
+ABSENT = "–"
 
 # The worst first.
 RANK = {
@@ -43,22 +45,41 @@ class ChangeRow:
     name: str
     run: str
     kind: ChangeKind
-    was: str
-    now: str
-    moved: str
-    since: str
-    remark: str
+    was: str = ABSENT
+    now: str = ABSENT
+    moved: str = ABSENT
+    since: str = ABSENT
+    remark: str = ""
     size: float = 0.0
 
     @property
     def line(self) -> str:
         """Text of the change of a result since the recorded baseline, as one line of a log."""
-        moved = "" if self.moved == "–" else f" ({self.moved})"
+        moved = "" if self.moved == ABSENT else f" ({self.moved})"
         remark = f"; {self.remark}" if self.remark else ""
         return (
             f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
             f"at {self.since}{moved}{remark}"
         )
+
+
+def count_row(case: str, run: str, change: CounterChange, since: str) -> ChangeRow:
+    """Return the row of a changed count of work, whose size is the relative change.
+
+    case, run  names of the case and of the counted runs
+    since      name of the origin of the recorded count
+    """
+    return ChangeRow(
+        case,
+        change.name,
+        run,
+        change.kind,
+        str(change.was),
+        str(change.now),
+        since=since,
+        remark=change.remark,
+        size=abs(change.now / max(change.was, 1) - 1),
+    )
 
 
 def rows_that_matter(rows: Iterable[ChangeRow]) -> list[ChangeRow]:

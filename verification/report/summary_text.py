@@ -19,7 +19,6 @@ from verification.judging.outcome import (
     SYMBOLS,
     WORDS,
     CaseOutcome,
-    Change,
     ChangeKind,
     FindingRecord,
     Origin,
@@ -32,7 +31,7 @@ from verification.judging.outcome import (
 )
 from verification.problems.problem import ReferenceKind
 from verification.regression.baseline import NOISE
-from verification.regression.change_row import ChangeRow, rows_that_matter
+from verification.regression.change_row import ABSENT, ChangeRow, count_row, rows_that_matter
 from verification.running.provenance import age_text, is_current
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text, study_failure_line
@@ -202,6 +201,7 @@ DIGITS = 9  # enough to see what changed
 # in place of a quantity and its run
 CASE = "case"
 ALL = "all runs"
+TO_ACCEPT = "accept the removal with a reason"
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
@@ -237,7 +237,7 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
     for case in report.cases:
         if case.baseline is None and some:
             verdicts = f"{len(case.verdicts)} verdicts"
-            yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, "–", verdicts, "–", "–", "")
+            yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, now=verdicts)
         yield from case_rows(case)
     for gone in report.gone:
         yield ChangeRow(
@@ -247,9 +247,8 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
             ChangeKind.GONE,
             "recorded",
             "not in the report",
-            "–",
-            gone.since,
-            "accept the removal with a reason",
+            since=gone.since,
+            remark=TO_ACCEPT,
         )
 
 
@@ -265,34 +264,30 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
     for number in numbers:
         change = number.regression
         if change is not None:
-            now = value_text(number.value, number.unit, DIGITS)
-            yield _change_row(
-                case.name, number.name, number.run, now, number.unit, change, case.baseline
+            was = value_text(change.was, number.unit, DIGITS) if change.recorded else ABSENT
+            yield ChangeRow(
+                case.name,
+                number.name,
+                number.run,
+                change.kind,
+                was,
+                value_text(number.value, number.unit, DIGITS),
+                moved_text(change),
+                case.baseline.name,
+                change.remark,
+                math.inf if change.moved is None else change.moved,
             )
     for count in case.counts:
-        yield ChangeRow(
-            case.name,
-            count.name,
-            ALL,
-            count.kind,
-            str(count.was),
-            str(count.now),
-            "–",
-            case.baseline.name,
-            count.remark,
-            abs(count.now / max(count.was, 1) - 1),
-        )
+        yield count_row(case.name, ALL, count, case.baseline.name)
     for gone in case.gone:
         yield ChangeRow(
             case.name,
             gone.name,
             gone.run,
             ChangeKind.GONE,
-            "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS),
-            "–",
-            "–",
-            case.baseline.name,
-            "accept the removal with a reason",
+            ABSENT if gone.was is None else value_text(gone.was, gone.unit, DIGITS),
+            since=case.baseline.name,
+            remark=TO_ACCEPT,
         )
 
 
@@ -332,24 +327,6 @@ def changes_text(report: Report) -> str:
     if report.chosen:
         parts.append("chosen cases alone, nothing is said about the others")
     return "; ".join(part for part in parts if part)
-
-
-def _change_row(
-    case: str, name: str, run: str, now: str, unit: str, change: Change, origin: Origin
-) -> ChangeRow:
-    was = value_text(change.was, unit, DIGITS) if change.recorded else "–"
-    return ChangeRow(
-        case,
-        name,
-        run,
-        change.kind,
-        was,
-        now,
-        moved_text(change),
-        origin.name,
-        change.remark,
-        math.inf if change.moved is None else change.moved,
-    )
 
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB

@@ -50,7 +50,6 @@ from verification.judging.declared_case import (
     meshed,
 )
 from verification.judging.field_errors import pressure_at, shear_at
-from verification.norms import round_means
 from verification.problems.cattaneo_mindlin import (
     FRETTING_WINDOW,
     OVER_LIMIT,
@@ -146,7 +145,7 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
-        return norms.relative_l2(end.pressure, _cell_means(exact, result.grid))
+        return norms.relative_l2(end.pressure, field_errors.exact_means(result, exact, problem))
     if not isinstance(result, radial.Result):
         return field_errors.pressure_l2(result, step, problem)
     surface: Any = surface_of(result)
@@ -166,7 +165,7 @@ def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
-        known = _cell_means(exact, result.grid)
+        known = field_errors.exact_means(result, exact, problem)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
     if not isinstance(result, radial.Result):
         return field_errors.shear_error(result, step, problem)
@@ -174,10 +173,6 @@ def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     areas, known = surface.weights, exact(np.hypot(*surface.positions))
     limit = areas * FRICTION * surface.scalar(end, "pressure")
     return norms.shear_error(areas * surface.vector(end, "shear"), areas * known, limit)
-
-
-def _cell_means(exact: Callable[[Field], Field], grid: SurfaceGrid) -> Field:
-    return round_means(exact, *grid.coordinates(), grid.spacing)
 
 
 @cache

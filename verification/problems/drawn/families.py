@@ -49,7 +49,7 @@ from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSli
 from verification.closed_forms.hertz import EllipticalContact
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
-    stress_by_hertz_shear,
+    stress_by_partial_slip,
 )
 from verification.problems.drawn import drawing as of
 from verification.problems.drawn.drawing import (
@@ -515,19 +515,13 @@ def _edge_tension(made: Similar, stick_radius: float) -> float:
     """Compute the tensile stress at the trailing edge of a ball under a tangential force
     [force/length²].
 
-    The shear is that of gross slip less that of the stick disc (Hamilton and Goodman 1966).
-
     made          contact of the ball
     stick_radius  radius of the stick disc; 0 for gross slip [length]
     """
     material = made.scene.body.elastic_materials[0]
     a, nu, q0 = made.full.radius, material.poisson_ratio, made.mu * made.full.peak
     stress = stress_by_hertz_pressure(-a, a, made.full.peak, nu)
-    stress = stress + stress_by_hertz_shear(-a, a, q0, nu)
-    if stick_radius:
-        part = q0 * stick_radius / a
-        stress = stress - stress_by_hertz_shear(-a, stick_radius, part, nu)
-    return float(stress)
+    return float(stress + stress_by_partial_slip(-a, a, stick_radius, q0, nu))
 
 
 def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:

@@ -1,0 +1,99 @@
+"""Points of a contact surface on rings and angles: weights, motions, loads and harmonics.
+
+Vector fields have components along r and θ. The angles are counted from the direction of the
+tangential load. They are one angle for axisymmetric fields, half the circle with both ends, or the
+whole circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from contact_scene.array_types import Field
+
+ABSENT = 1e-9  # below this mean square a wave is zero at all angles, up to round-off
+
+
+def angle_weights(angles: Field) -> Field:
+    """Return the weights (angles,) of means over a circle; both ends of half a circle are included.
+
+    angles  angles of the points, one, half a circle or the whole circle [radian]
+    """
+    weights = np.ones(len(angles))
+    if _is_half(angles):
+        weights[[0, -1]] = 0.5
+    return weights / np.sum(weights)
+
+
+def displacement_per_motion(arms: Field, angles: Field, *, along: bool) -> Field:
+    """Return the displacement r, θ of the points (3, 2, rings, angles) per unit motion.
+
+    The motions are the shifts along and across the load [1], and the twist [length]. Motions that
+    the symmetry of the fields excludes have zero displacement.
+
+    arms    distance of each ring from the axis, as a mean over the ring (rings,) [length]
+    angles  angles of the points [radian]
+    along   True if the fields admit a shift along the load
+    """
+    cos, sin = np.cos(angles), np.sin(angles)
+    found = np.zeros((3, 2, len(arms), len(angles)))
+    if along:
+        found[0] = np.stack([cos, -sin])[:, None]
+    if _is_half(angles):
+        return found
+    if len(angles) > 1:
+        found[1] = np.stack([sin, cos])[:, None]
+    found[2, 1] = arms[:, None]
+    if len(angles) > 1:
+        found[2, :, 0] = 0.0  # the axis is one point
+    return found
+
+
+def loads_and_motions(increment: Any, along: tuple[float, float]) -> tuple[Field, Field | None]:
+    """Return the tangential loads and the tangential motions of the indenter, each (3,).
+
+    The loads are the forces along and across the load, and the torque. The motions are the shifts
+    and the twist. They are None if one of them is undefined.
+
+    along  unit vector of the direction of the load
+    """
+    x, y = along
+    axes = np.array([[x, y], [-y, x]])
+    forces = np.array([*axes @ (increment.tangential_force or (0.0, 0.0)), increment.torque or 0.0])
+    shift, twist = increment.tangential_shift, increment.twist
+    unknown = shift is None and increment.tangential_force is not None
+    if unknown or (twist is None and increment.torque is not None):
+        return forces, None
+    return forces, np.array([*axes @ (shift or (0.0, 0.0)), twist or 0.0])
+
+
+def displacement_by_harmonics(
+    tractions: Field, angles: Field, highest: int, respond: Callable[[int, bool, Field], Field]
+) -> Field:
+    """Compute the displacement r, θ, z of the points as a sum over harmonics of the tractions.
+
+    tractions  shear r, θ and pressure at the rings and angles (3, rings, angles) [force/length²]
+    angles     angles of the points [radian]
+    highest    highest harmonic
+    respond    function of the harmonic m, of True for its waves sin mθ, -cos mθ, sin mθ and False
+               for cos mθ, sin mθ, cos mθ, and of the amplitudes of the tractions (3, rings), that
+               returns the amplitudes of the displacement (3, rings) [length]
+    """
+    found, weights = np.zeros_like(tractions), angle_weights(angles)
+    for m in range(highest + 1):
+        cos, sin = np.cos(m * angles), np.sin(m * angles)
+        waves = np.stack([cos, sin, cos]), np.stack([sin, -cos, sin])
+        for turned, wave in enumerate(waves[:1] if _is_half(angles) else waves):
+            norms = np.sum(weights * wave**2, axis=1)
+            loads = np.einsum("cra,ca,a->cr", tractions, wave, weights)
+            loads /= np.where(norms > ABSENT, norms, np.inf)[:, None]
+            if np.any(loads):
+                found += respond(m, bool(turned), loads)[:, :, None] * wave[:, None]
+    return found
+
+
+def _is_half(angles: Field) -> bool:
+    return len(angles) > 1 and bool(angles[-1] <= np.pi)
