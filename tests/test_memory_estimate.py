@@ -1,6 +1,7 @@
 """Tests of the memory estimate: the peak memory of a run is known before the run."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,8 +12,10 @@ import radial
 from contact_scene import SceneFile, machine, read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from radial.memory import estimated_bytes as radial_estimated_bytes
-from semi_analytical import discretise, plan
+from semi_analytical import SurfaceGrid, discretise, plan
 from semi_analytical.memory import estimated_bytes
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
+from semi_analytical.plan import Plan
 
 WITHIN = 0.15
 SCENE_FILES = Path(__file__).resolve().parents[1] / "scenes"
@@ -99,6 +102,31 @@ def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path)
     grid, decided = discretise(contents.scene, contents.semi_analytical), plan(contents.scene)
     short, long = (estimated_bytes(grid, decided.cut_into([n])) for n in (1000, 2000))
     assert 0 < long - short < 1e6
+
+
+def _plan_of(text: str, folder: Path) -> Plan:
+    (folder / "scene.toml").write_text(text, encoding="utf-8")
+    return plan(read_scene_file(folder / "scene.toml").scene, edge="last")
+
+
+def _bytes(side: int, decided: Plan, domain: ReducedDomain) -> int:
+    grid = SurfaceGrid((side, side), (1e-3, 1e-3))
+    return estimated_bytes(grid, replace(decided, symmetry=domain))
+
+
+def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path: Path) -> None:
+    """With shear, the edge correction uses the work space of the shear: a mirror plane saves as
+    much as in pressing alone."""
+    pressed, pushed = (_plan_of(scene(64, then=then), tmp_path) for then in ("", PUSHED))
+    whole, half = WINDOW, ReducedDomain((True, False))
+    saved = []
+    for decided in (replace(pressed, edge="off"), pushed, pressed):
+        most = _bytes(8000, decided, whole)  # so many cells that figures take less
+        assert _bytes(7999, decided, half) < most < _bytes(8001, decided, half)
+        saved.append(most - _bytes(8000, decided, half))
+    alone, with_shear, with_edge = saved
+    assert 0 < alone < with_edge
+    assert with_shear == pytest.approx(alone)
 
 
 RADIAL_SCENE = """
