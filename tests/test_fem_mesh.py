@@ -14,7 +14,6 @@ from contact_scene import (
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
 from fem_reference.mesh.section_mesh import section_mesh
-from fem_reference.mesh.section_outline import graded_lines
 from slipstick import solve, stated_errors
 
 SOFT = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
@@ -73,15 +72,6 @@ def test_a_refined_mesh_is_nested(mesher, body):
     corners = {tuple(point) for point in fine.points.T}
     assert all(tuple(point) in corners for point in coarse.points.T)
     assert fine.outline.size == coarse.outline.size / 2
-
-
-@pytest.mark.parametrize("count", [32, 128])
-def test_elements_grow_by_the_factor_of_the_theory(count):
-    """The factor for 32 elements over the radius is 1.2, the whole number of elements apart."""
-    sizes = np.diff(graded_lines(1.0, 1e9, 1.0, 1 / count))
-    growth = 1.2 ** np.sqrt(32 / count)
-    assert sizes[0] == pytest.approx(1 / count, rel=0.02)
-    assert sizes[1:] / sizes[:-1] == pytest.approx(growth, rel=np.log(growth) / len(sizes))
 
 
 @pytest.mark.parametrize(
