@@ -82,6 +82,21 @@ def test_pressing_and_last_load_of_a_drawn_scene_are_known(family: str) -> None:
     assert max(steps) == len(known.scene.loading)
 
 
+def test_a_ball_that_slides_carries_the_friction_limit() -> None:
+    known = drawn("sliding", SEED, 0)
+    values = {(truth.step, truth.quantity): truth.reference.value for truth in known.truths}
+    pressing, sliding = known.scene.loading
+    assert pressing.normal_force is not None
+    assert known.scene.friction is not None
+    mu = known.scene.friction.uniform
+    assert values[2, "tangential_force"] == pytest.approx(mu * pressing.normal_force)
+    assert sliding.tangential_shift is not None
+    # Gross slip begins at 1 to 1.5 times this shift.
+    onset = mu * values[1, "approach"]
+    assert 2 * onset < sliding.tangential_shift[0] < 100 * onset
+    assert sliding.tangential_shift[1] == 0
+
+
 def similar_under_forces(posed: Posed) -> KnownScene:
     return next(
         known

@@ -129,6 +129,26 @@ def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path: Path
     assert with_shear == pytest.approx(alone)
 
 
+def test_each_effect_and_each_edge_cell_takes_memory(tmp_path: Path) -> None:
+    for then in ("", PUSHED):
+        decided = _plan_of(scene(64, then=then), tmp_path)
+        alone = replace(decided, edge="off")
+        tilted, twisted = replace(alone, tilt=True), replace(alone, torsion=True)
+        least = _bytes(8000, alone, WINDOW)
+        assert least < min(_bytes(8000, more, WINDOW) for more in (tilted, twisted, decided))
+        both = _bytes(8000, replace(tilted, torsion=True), WINDOW)
+        assert both > max(_bytes(8000, one, WINDOW) for one in (tilted, twisted))
+        square, strip = (
+            [
+                estimated_bytes(SurfaceGrid(cells, (1e-3, 1e-3)), replace(one, symmetry=WINDOW))
+                for one in (alone, decided)
+            ]
+            for cells in ((8000, 8000), (800, 80_000))
+        )
+        assert square[0] == strip[0]
+        assert square[1] < strip[1]
+
+
 RADIAL_SCENE = """
 [indenter]
 shape = "paraboloid"
