@@ -3,6 +3,7 @@
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -82,10 +83,10 @@ def test_the_states_of_the_paper_are_marked_at_their_share_of_the_friction_limit
         for step, at in parts.items()
         for part in at
     ]
-    (((panel,),),) = [loading_history_chart(SimpleNamespace(increments=increments)).rows]
-    assert [(name, y) for _, y, name in panel.notes] == [
-        (name, pytest.approx(part)) for name, _, part in STATES
-    ]
+    result: Any = SimpleNamespace(increments=increments)
+    ((panel,),) = loading_history_chart(result).rows
+    assert [name for _, _, name in panel.notes] == [name for name, _, _ in STATES]
+    assert [y for _, y, _ in panel.notes] == pytest.approx([part for _, _, part in STATES])
     history, marks = panel.curves
     assert history.x == pytest.approx([*np.linspace(0, 1, len(increments))], abs=1e-6)
     assert history.y == pytest.approx([part for at in parts.values() for part in at])

@@ -89,6 +89,7 @@ def test_a_ball_that_slides_carries_the_friction_limit() -> None:
     assert pressing.normal_force is not None
     assert known.scene.friction is not None
     mu = known.scene.friction.uniform
+    assert mu is not None
     assert values[2, "tangential_force"] == pytest.approx(mu * pressing.normal_force)
     assert sliding.tangential_shift is not None
     # Gross slip begins at 1 to 1.5 times this shift.

@@ -52,8 +52,13 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
 
 def test_a_map_shows_every_named_place_with_half_a_place_around_it() -> None:
     tiles = curve("all", [0, 2], [0, 3], Look.TILES)
-    names = {"x_places": ("a", "b", "c"), "y_places": ("1", "2", "3", "4")}
-    panel = Panel(x_label="x", y_label="y", curves=(tiles,), **names)
+    panel = Panel(
+        x_label="x",
+        y_label="y",
+        curves=(tiles,),
+        x_places=("a", "b", "c"),
+        y_places=("1", "2", "3", "4"),
+    )
     with style.figure_style():
         (axes,) = draw(Chart(name="map", title="t", caption="c", rows=((panel,),))).axes
     assert [text.get_text() for text in axes.get_xticklabels()] == ["a", "b", "c"]
