@@ -162,7 +162,7 @@ class RingSolver(DiscretisedSolver):
         indenter, plan = self.scene.indenter, result.plan
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))
-        side = end.contact_radius / (len(within) or 1)
+        side = end.contact_radius / len(within)
         stick, annulus = slip_zone(end, LINEAR / side) if self.depends_on_rings else (None, None)
         # Values at rings are biased, so that all scalars converge with the first order.
         biased = self.depends_on_rings and (plan.circle is None or indenter.rim is not None)

@@ -174,6 +174,7 @@ def test_numbers_are_as_accurate_as_requested(
 def test_other_parameters_of_a_mesh_are_refined_by_their_factors() -> None:
     asked = FiniteElementDiscretisation()
     solver = ElementSolver(scene(PRESS), asked, method=Method.PENALTY)
+    assert solver.refine_space(asked, {}) == asked
     box = solver.refine_space(asked, {"section": 1.0}).box
     finer = solver.refine_space(asked, {"section": 2.0, "penalty": 10.0, "harmonics": 1.5})
     assert finer.box == pytest.approx(2 * box)

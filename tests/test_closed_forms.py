@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from verification.cases.frictional_pressing import stick_ratio
 from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
@@ -37,18 +36,6 @@ def disc_integral(function, radius, edges=()):
 
         total += quad(integrand, 0, np.pi, epsabs=1e-14, epsrel=1e-12)[0]
     return total
-
-
-# ---- Stick of bodies that couple
-
-
-BETA = 0.4 / 1.4  # ν = 0.3 under a rigid indenter
-
-
-@pytest.mark.parametrize(("friction", "ratio"), [(0.1, 0.2240), (0.2, 0.7334), (0.3, 0.9186)])
-def test_the_stick_radius_of_pressing_has_its_printed_values(friction, ratio):
-    """Spence 1975."""
-    assert stick_ratio(friction, BETA) == pytest.approx(ratio, abs=5e-5)
 
 
 # ---- Cattaneo and Mindlin

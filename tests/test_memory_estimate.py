@@ -2,6 +2,7 @@
 
 import sys
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,10 @@ from contact_results.stress.on_cells import OnCells
 from contact_scene import Body, Layer, SceneFile, machine, read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from radial.memory import estimated_bytes as radial_estimated_bytes
-from semi_analytical import discretise, plan, solve
+from semi_analytical import SurfaceGrid, discretise, plan, solve
 from semi_analytical.memory import estimated_bytes
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
+from semi_analytical.plan import Plan
 from semi_analytical.stress import field as stress_field
 
 WITHIN = 0.15
@@ -107,6 +110,51 @@ def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path)
     grid, decided = discretise(contents.scene, contents.semi_analytical), plan(contents.scene)
     short, long = (estimated_bytes(grid, decided.cut_into([n])) for n in (1000, 2000))
     assert 0 < long - short < 1e6
+
+
+def _plan_of(text: str, folder: Path) -> Plan:
+    (folder / "scene.toml").write_text(text, encoding="utf-8")
+    return plan(read_scene_file(folder / "scene.toml").scene, edge="last")
+
+
+def _bytes(side: int, decided: Plan, domain: ReducedDomain) -> int:
+    grid = SurfaceGrid((side, side), (1e-3, 1e-3))
+    return estimated_bytes(grid, replace(decided, symmetry=domain))
+
+
+def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path: Path) -> None:
+    """With shear, the edge correction uses the work space of the shear: a mirror plane saves as
+    much as in pressing alone."""
+    pressed, pushed = (_plan_of(scene(64, then=then), tmp_path) for then in ("", PUSHED))
+    whole, half = WINDOW, ReducedDomain((True, False))
+    saved = []
+    for decided in (replace(pressed, edge="off"), pushed, pressed):
+        most = _bytes(8000, decided, whole)  # so many cells that figures take less
+        assert _bytes(7999, decided, half) < most < _bytes(8001, decided, half)
+        saved.append(most - _bytes(8000, decided, half))
+    alone, with_shear, with_edge = saved
+    assert 0 < alone < with_edge
+    assert with_shear == pytest.approx(alone)
+
+
+def test_each_effect_and_each_edge_cell_takes_memory(tmp_path: Path) -> None:
+    for then in ("", PUSHED):
+        decided = _plan_of(scene(64, then=then), tmp_path)
+        alone = replace(decided, edge="off")
+        tilted, twisted = replace(alone, tilt=True), replace(alone, torsion=True)
+        least = _bytes(8000, alone, WINDOW)
+        assert least < min(_bytes(8000, more, WINDOW) for more in (tilted, twisted, decided))
+        both = _bytes(8000, replace(tilted, torsion=True), WINDOW)
+        assert both > max(_bytes(8000, one, WINDOW) for one in (tilted, twisted))
+        square, strip = (
+            [
+                estimated_bytes(SurfaceGrid(cells, (1e-3, 1e-3)), replace(one, symmetry=WINDOW))
+                for one in (alone, decided)
+            ]
+            for cells in ((8000, 8000), (800, 80_000))
+        )
+        assert square[0] == strip[0]
+        assert square[1] < strip[1]
 
 
 RADIAL_SCENE = """

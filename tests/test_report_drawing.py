@@ -50,6 +50,24 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     assert len(looks) == len(names)
 
 
+def test_a_map_shows_every_named_place_with_half_a_place_around_it() -> None:
+    tiles = curve("all", [0, 2], [0, 3], Look.TILES)
+    panel = Panel(
+        x_label="x",
+        y_label="y",
+        curves=(tiles,),
+        x_places=("a", "b", "c"),
+        y_places=("1", "2", "3", "4"),
+    )
+    with style.figure_style():
+        (axes,) = draw(Chart(name="map", title="t", caption="c", rows=((panel,),))).axes
+    assert [text.get_text() for text in axes.get_xticklabels()] == ["a", "b", "c"]
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["1", "2", "3", "4"]
+    assert axes.get_xlim() == (-0.5, 2.5)
+    assert axes.get_ylim()[0] == -0.5
+    assert 3.5 <= axes.get_ylim()[1] < 4
+
+
 def _luminance(colour: str) -> float:
     parts = [int(colour[n : n + 2], 16) / 255 for n in (1, 3, 5)]
     linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]

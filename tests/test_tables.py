@@ -22,6 +22,15 @@ from verification.references import load_reference
 ROOT = Path(__file__).resolve().parents[1]
 
 
+@pytest.mark.parametrize("name", TABLES)
+def test_the_rows_of_a_table_are_in_order_and_within_its_bounds(name: str) -> None:
+    for axis in TABLES[name].axes.values():
+        values = axis.values
+        assert axis.least < values[0]
+        assert values[-1] <= axis.most
+        assert sorted({*values}) == [*values]
+
+
 def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
     """2 |3 - 3.5| + 0.01 * 3 + 0.1."""
     found = {1: RowValues((3.0,), 0.01, (0.1,)), 2: RowValues((3.5,))}

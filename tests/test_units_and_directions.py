@@ -100,3 +100,15 @@ def test_nothing_sticks_at_the_friction_limit_of_the_softest_bodies(way: Any) ->
     end = pushed(way, (1.0, False, 0.0), 0.0, 1.0, 1e-12, (1.0,))
     assert end.stick_area == 0
     assert not np.any(end.in_stick)
+
+
+@pytest.mark.parametrize("way", ["radial", "semi-analytical", *Method])
+@pytest.mark.parametrize("rigid", [False, True])
+def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way: Any, rigid: bool) -> None:
+    """Only a number with a unit in the program would: the soft contact has pressures below 1."""
+    unit = 2.0**-40
+    stiff, soft = (pushed(way, (0.5, rigid, 0.5), 0.0, 1.0, stress) for stress in (1.0, unit))
+    assert np.array_equal(stiff.pressure * unit, soft.pressure)
+    assert (stiff.iterations, stiff.residuals) == (soft.iterations, soft.residuals)
+    for name, (_, of_stress) in OF.items():
+        assert getattr(soft, name) == getattr(stiff, name) * unit**of_stress, name

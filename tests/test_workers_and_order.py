@@ -59,7 +59,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
-def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+def test_workers_ignore_interrupts_and_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     told = tmp_path / "pid"
     parent = begun(tmp_path, str(told), str(tmp_path / "cases"), program=ENDLESS)
     until = time.monotonic() + PATIENCE
@@ -67,6 +67,9 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
         assert time.monotonic() < until
         time.sleep(0.05)
     worker = int(told.read_text(encoding="ascii"))
+    status = Path(f"/proc/{worker}/status").read_text(encoding="ascii")
+    (ignored,) = re.findall(r"SigIgn:\s*(\w+)", status)
+    assert int(ignored, 16) & 1 << (signal.SIGINT - 1)
     parent.send_signal(signal.SIGKILL)
     parent.communicate()
     assert has_ended(worker)
