@@ -15,6 +15,7 @@ from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
 from fem_reference import Method
+from fem_reference.discretised import ElementSolver
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
@@ -147,6 +148,14 @@ def solved_on_elements(*loading: dict[str, Any], **changes: Any) -> Any:
     scene = Scene.model_validate(document(*loading, **changes))
     mesh = FiniteElementDiscretisation(elements_per_radius=16)
     return fem_reference.solve(scene, mesh, Method.COMPLEMENTARITY)
+
+
+def test_the_area_of_a_line_contact_is_resolved_as_its_two_edges() -> None:
+    result = solved_on_elements({"normal_force": FORCE})
+    solver, (end,) = ElementSolver.of(result), result.steps
+    largest = solver.measure_features(result, end).largest
+    (side,) = solver.cell_sides(result)
+    assert largest == {"contact_radius": side, "contact_area": pytest.approx(2 * side)}
 
 
 @pytest.mark.parametrize("solve", [solved, solved_on_elements])

@@ -6,6 +6,7 @@ import signal
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from operator import methodcaller
 from pathlib import Path
 from threading import Thread
 
@@ -16,6 +17,7 @@ from study_cases import Endless, Killed, Loop, Number, Refusing, Square
 from verification.running.case_pool import (
     CaseStore,
     ClusterWorkers,
+    LocalWorkers,
     run_cases,
 )
 from verification.running.study import StudyCase
@@ -56,6 +58,13 @@ from verification.running.case_pool import CaseStore
 if __name__ == "__main__":
     run_cases([Endless(sys.argv[1])], CaseStore(Path(sys.argv[2])), 1, print)
 """
+
+
+def test_closed_workers_begin_no_further_case() -> None:
+    pool = LocalWorkers(1)
+    futures = [pool.submit(methodcaller("compute"), Square(float(n))) for n in range(5)]
+    pool.close()
+    assert futures[-1].cancelled()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
