@@ -2,7 +2,7 @@
 
 No tolerance is chosen: a number is outside if its interval and the expected interval, each the
 stated error wide on either side, exclude each other. A stated error is worse by the rule for errors
-of `verification.regression.baseline`.
+of `verification.regression.comparison`.
 """
 
 from __future__ import annotations
@@ -29,8 +29,13 @@ from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.reading.scene_error import dotted_key, shown
 from slipstick.sweep import SCALARS
 from verification.judging.outcome import ChangeKind
-from verification.regression.baseline import BETTER_BY, NOISE, WORSE_BY, has_grown
 from verification.regression.change_row import ChangeRow, rows_that_matter
+from verification.regression.comparison import (
+    BETTER_BY,
+    NOISE,
+    WORSE_BY,
+    has_grown,
+)
 from verification.running.study import CaseRecord
 
 WHAT = "file of expected numbers"

@@ -28,9 +28,11 @@ from verification.regression.baseline import (
     COUNTERS,
     accept,
     baselines_of,
-    compared,
     key_of,
     read_baselines,
+)
+from verification.regression.comparison import (
+    compared,
 )
 
 REASON = "first numbers | of <b>this</b> test"

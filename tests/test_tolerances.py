@@ -16,14 +16,16 @@ from verification.judging.outcome import (
     Verdict,
 )
 from verification.regression.baseline import (
+    BaselineRefused,
+    read_baselines,
+)
+from verification.regression.tolerances import (
     LEAST,
     MOVED,
-    BaselineRefused,
     Tolerances,
     accept_tolerances,
     held_to,
     proposed,
-    read_baselines,
     read_tolerances,
     text_of,
 )

@@ -1,6 +1,6 @@
 """Saved judgements of a solver on challenges, and the comparison of later judgements with them.
 
-The rules are those of the baselines of this program, see `verification.regression.baseline`.
+The rules are those of the baselines of this program, see `verification.regression.comparison`.
 """
 
 from __future__ import annotations
@@ -25,8 +25,14 @@ from verification.judging.outcome import (
     finite,
     moved_text,
 )
-from verification.regression.baseline import JudgedQuantity, count_change, quantity_change
+from verification.regression.baseline import (
+    JudgedQuantity,
+)
 from verification.regression.change_row import ABSENT, ChangeRow, count_row, rows_that_matter
+from verification.regression.comparison import (
+    count_change,
+    quantity_change,
+)
 
 WHAT = "file of judgements"
 REMEDY = "restore it, or delete it and save the judgement again by --save"

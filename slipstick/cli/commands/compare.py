@@ -15,8 +15,10 @@ from verification.judging.outcome import ChangeKind, failure_line
 from verification.regression.baseline import (
     Baseline,
     baselines_of,
-    compared,
     read_baselines,
+)
+from verification.regression.comparison import (
+    compared,
     refuse_if_not_whole,
 )
 from verification.report.files import record_in
