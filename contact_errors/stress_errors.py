@@ -79,6 +79,7 @@ AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
+NOT_MEASURED = "no number of the run shows the error of the shear, which the stress has as well"
 COARSE = 2.0  # coarsening factor of the tractions
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
@@ -276,6 +277,8 @@ def _stated(
     parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
     if state.by_increments is None and is_sheared(state):
         reason = reason or NO_ERRORS
+    elif not state.shear_measured:
+        reason = reason or NOT_MEASURED
     small = size <= LARGEST_SHARE * abs(value)
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
@@ -323,12 +326,14 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
     here = (points.depth == extreme.depth) & (values == extreme.value)
     inside = points.material == points.material.flat[int(np.argmax(here))]
     levels = np.unique(points.depth[inside])
-    k = int(np.searchsorted(levels, extreme.depth))
-    if extreme.region.startswith("interface") or not 0 < k < len(levels) - 1:
+    round_off = PRECISION * levels[-1]  # of equal depths in two refinements of a maximum
+    above = levels[levels < extreme.depth - round_off]
+    below = levels[levels > extreme.depth + round_off]
+    if extreme.region.startswith("interface") or not (above.size and below.size):
         return 0.0
-    three = levels[k - 1 : k + 2]
+    three = np.array([above[-1], extreme.depth, below[0]])
     largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
-    bend, slope, _ = np.polyfit(three - levels[k], largest, 2)
+    bend, slope, _ = np.polyfit(three - extreme.depth, largest, 2)
     return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from contact_scenes import (
     INDENTERS,
+    LOAD,
     PRESS,
     RIGID_BALL,
     YOUNG,
@@ -21,6 +22,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.quantities.summary import ContactStatus
 from fem_reference import Increment, Method, Path, Result, plan, solve
 from fem_reference.expected_radius import expected_radius
 
@@ -139,3 +141,14 @@ def test_steps_are_cut_where_the_path_matters(loading, counts) -> None:
 def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
     pushed = scene(PRESS, push(0.9), push(0.7), indenter=RIGID_BALL)
     assert plan(pushed).increments == (20, 18, 4)
+
+
+@pytest.mark.parametrize("method", Method)
+def test_a_contact_of_one_element_grows_to_the_friction_limit(method: Method) -> None:
+    """The first pressure of the iteration must carry the load: no neighbour corrects it."""
+    force, friction = 1e-6 * LOAD, 0.3
+    grown = {"normal_force": force, "tangential_force": (friction * force, 0.0)}
+    asked = scene({"normal_force": force / 7}, grown, friction=friction, indenter=RIGID_BALL)
+    found = end(asked, 4, method, contact_radius=0.27 * A)
+    assert found.status is ContactStatus.GROSS_SLIDING
+    assert found.normal_force == force

@@ -15,6 +15,7 @@ from numpy.testing import assert_allclose
 import radial
 import radial.history
 import slipstick
+from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import OnDisc
@@ -224,3 +225,48 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
     assert np.max(np.hypot(field.points.x, field.points.y)) < 3 * depth
     assert_allclose(shear.value, expected, rtol=5e-3)
     assert_allclose(np.hypot(shear.x, shear.y), depth / 2, rtol=0.05)
+
+
+def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
+    """On both sides of the interface of a thick soft layer, up to 200 contact radii away."""
+    steel, soft = (
+        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
+    )
+    depth, force = 6e-3, 1e3
+    scene = Scene(
+        indenter=Paraboloid(radius=18e-3, material=RIGID),
+        body=Body(material=steel, layers=(Layer(thickness=depth, material=soft),)),
+        friction=CoulombFriction(coefficient=0.2),
+        loading=(LoadStep(normal_force=force), LoadStep(tangential_force=(100.0, 0.0))),
+    )
+    state = state_of_result(slipstick.solve(scene, "radial"), 2)
+    response = OnDisc(state)
+    found = {(e.region, e.measure): e for e in extremes(response.stress())}
+    x = np.linspace(-0.2, 0.2, 81)
+    for side, layer in (("above", 0), ("below", 1)):
+        points = response.stress_at(x, 0 * x, [Level(depth, layer)] * len(x))
+        for measure in ("max_principal", "max_shear", "von_mises"):
+            largest = found[f"interface 1 {side}", measure]
+            assert not largest.at_window_edge
+            assert np.max(points.measures[measure]) <= (1 + 1e-3) * largest.value
+
+
+def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
+    """Two refinements of a maximum have depths that differ by round-off."""
+    steel = IsotropicMaterial(young_modulus=21e10, poisson_ratio=0.3)
+    scene = Scene(
+        indenter=Paraboloid(radius=18e-3, material=RIGID),
+        body=Body(material=steel),
+        friction=CoulombFriction(coefficient=0.1),
+        loading=(
+            LoadStep(normal_force=1e3, increments=8),
+            LoadStep(tangential_force=(100.0, 0.0)),
+        ),
+    )
+    result = slipstick.solve(scene, "radial")
+    state = state_of_result(result, 2, slipstick.stated_errors(result))
+    field = OnDisc(state).stress()
+    largest = [e for e in extremes(field) if e.measure == "von_mises"]
+    (error,) = stress_errors(state, field, largest)
+    assert error.error is not None
+    assert float(error.error) < 0.05 * largest[0].value

@@ -45,6 +45,9 @@ class NoSuchState(Refused):
 
 
 ROUNDING = 1e-9  # relative to the approach: smaller shifts are round-off
+# Resultant of the shear over the integral of its magnitude (or torque over the integral of radius
+# times magnitude) from which on shift and twist show the error of the shear.
+FAIR = 0.5
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,7 @@ class LoadedBodies:
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the tractions relative to the tractions; None if unknown
+    shear_measured  False if the error of the shear is unknown, see `_shear_error`
     by_map          the same for the points of a measured indenter; 0 for other shapes
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
@@ -81,6 +85,7 @@ class LoadedBodies:
     no_root: str | None = None
     edges: bool = False
     by_increments: float | None = None
+    shear_measured: bool = True
     by_map: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
@@ -243,6 +248,11 @@ def loaded_bodies(
     scene = source.scene
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
+    by_increments, of_shear = None, None
+    if errors is not None:
+        by_increments = _relative_part(end, errors, "increments")
+        of_shear = _shear_error(surface, end, errors, fields)
+        by_increments = None if by_increments is None else max(by_increments, of_shear or 0.0)
     return LoadedBodies(
         title=scene.title,
         body=scene.body,
@@ -253,7 +263,8 @@ def loaded_bodies(
         discretisation=getattr(source, "discretisation", None),
         no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
-        by_increments=None if errors is None else _error_by_increments(end, errors, fields),
+        by_increments=by_increments,
+        shear_measured=errors is None or of_shear is not None,
         by_map=None if errors is None else _relative_part(end, errors, "map"),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
@@ -264,34 +275,40 @@ def loaded_bodies(
     )
 
 
-def _error_by_increments(
-    end: State, errors: Mapping[str, StatedError], fields: Mapping[str, Field | None]
+def _shear_error(
+    surface: Surface,
+    end: State,
+    errors: Mapping[str, StatedError],
+    fields: Mapping[str, Field | None],
 ) -> float | None:
-    """Estimate the relative error of the tractions that is due to the increments.
+    """Estimate the relative error by the increments of shear that no tangential load requires.
 
-    Shear changes peak pressure and approach little: their errors do not show that of the shear.
-    Shift, twist or dissipated energy show it. Under a ball that is pressed with friction and sticks
-    all over, there is none of them, and the error is unknown. Where the motion is undefined, at the
-    friction limit, the shear follows from the pressure.
+    Shear by pressing, by strain or by earlier loads changes peak pressure and approach little:
+    their errors do not show its error. The dissipated energy does. Where all sticks, nothing is
+    dissipated, and the error is unknown: None. It is 0 for shear of which the tangential load is a
+    fair share, as the errors of shift and twist show its error.
 
-    end     scalars at the end of the increment
-    errors  stated errors of these scalars, by name
-    fields  tractions by name
+    surface  surface grid of the tractions
+    end      scalars at the end of the increment
+    errors   stated errors of these scalars, by name
+    fields   tractions by name; None for absent ones
     """
-    found = _relative_part(end, errors, "increments")
-    sheared = any(np.any(f) for name, f in fields.items() if f is not None and name != "pressure")
-    if found is None or not sheared:
-        return found
-    if end.tangential_shift is None or (end.torque is not None and end.twist is None):
-        return found
-    shift = float(np.max(np.abs(end.tangential_shift)))
-    turn = abs(end.twist or 0.0) * (end.contact_radius or 0.0)
-    if max(shift, turn) > ROUNDING * abs(end.approach or 0.0):
-        return found
+    components: list[Field] = []
+    for name, field in fields.items():
+        if field is not None and name != "pressure":
+            components += list(field) if name == "shear" else [field]
+    shear = np.sqrt(sum((one**2 for one in components), np.zeros(()))) * surface.weights
+    if not np.any(shear):
+        return 0.0
+    given = end.tangential_force
+    force = 0.0 if given is None else float(np.hypot.reduce(np.atleast_1d(given)))
+    arms = shear * np.hypot.reduce(surface.positions)
+    if force >= FAIR * np.sum(shear) or abs(end.torque or 0.0) >= FAIR * np.sum(arms):
+        return 0.0
     lost, energy = errors.get("dissipated_energy"), end.dissipated_energy or 0.0
     if lost is None or lost.error is None or float(np.max(lost.error)) >= energy:
         return None
-    return max(found, float(np.max(lost.parts.get("increments", 0.0))) / energy)
+    return float(np.max(lost.parts.get("increments", 0.0))) / energy
 
 
 def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) -> float | None:

@@ -79,8 +79,11 @@ class OnDisc(BodyResponse):
         field, wide = self._beyond_section(field, body)
         if depths is not None:
             return field
+        centre_x, centre_y = (body.centre * component for component in body.direction)
         nearer = [
-            (body if hypot(one.x, one.y) <= body.reach * radius else wide).largest(one)
+            (
+                body if hypot(one.x - centre_x, one.y - centre_y) <= body.reach * radius else wide
+            ).largest(one)
             for one in extremes(field)
             if one.region in body.parts.named and one.measure in self.measures
         ]
@@ -111,17 +114,18 @@ class OnDisc(BodyResponse):
                 for one in extremes(field)
                 if one.measure in self.decaying
             ]
-            far = {(float(points.depth[k]), int(points.material[k])) for k in largest if outer[k]}
-            deepest = max((depth for depth, _ in far), default=0.0)
+            far = [float(points.depth[k]) for k in largest if outer[k]]
+            deepest = max(far, default=0.0)
             if not far or ends > spread(stack_of(self.body), body.parts.radius, deepest):
                 break
             body = RadialBody.from_state(
                 self.state, self.indenter, self.fineness, WIDER * body.reach
             )
-            levels = [Level(*level) for level in sorted(far)]
+            followed = outer & np.isin(points.depth, far)
+            both_sides = zip(points.depth[followed], points.material[followed], strict=True)
+            levels = [Level(float(depth), int(layer)) for depth, layer in sorted({*both_sides})]
             x = body.section[np.abs(body.section - body.centre) > ends]
             beyond = body.stress_points(levels, x, np.zeros_like(x)).flattened
-            followed = outer & np.isin(points.depth, [depth for depth, _ in far])
             inner = replace(points, at_edge=points.at_edge & ~followed)
             field = replace(field, points=StressPoints.concatenate([inner, beyond]))
         return field, body
@@ -129,6 +133,10 @@ class OnDisc(BodyResponse):
     @one_thread()
     def stress_at(self, x: Field, y: Field, levels: Sequence[Level]) -> StressPoints:
         body = self.radial_body
+        farthest = float(np.max(np.hypot(x, y))) + abs(body.centre)
+        if farthest > body.reach * body.parts.radius:
+            reach = farthest / body.parts.radius
+            body = RadialBody.from_state(self.state, self.indenter, self.fineness, reach)
         c, s = body.direction
         along, across = c * x + s * y, c * y - s * x
         found = []
