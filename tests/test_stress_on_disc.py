@@ -270,3 +270,31 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     (error,) = stress_errors(state, field, largest)
     assert error.error is not None
     assert float(error.error) < 0.05 * largest[0].value
+
+
+@pytest.mark.parametrize("thickness", [0.4, 8.0])
+def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) -> None:
+    """Also where the tension of an interface begins beyond the first window, and in a base that
+    begins below the usual depths."""
+    steel, soft = (
+        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
+    )
+    radius = 0.86e-3  # of the contact without layer
+    scene = Scene(
+        indenter=Paraboloid(radius=18e-3, material=RIGID),
+        body=Body(material=steel, layers=(Layer(thickness=thickness * radius, material=soft),)),
+        loading=(LoadStep(normal_force=1e3),),
+    )
+    named = []
+    for solver, sizes in (
+        ("semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
+        ("radial", None),
+    ):
+        state = state_of_result(slipstick.solve(scene, solver, sizes), 1)
+        found = extremes(body_response(state).stress())
+        named.append({(one.region, one.measure): one for one in found})
+    cells, rings = named
+    assert cells.keys() == rings.keys()
+    for key, one in cells.items():
+        assert not one.at_window_edge
+        assert_allclose(one.value, rings[key].value, rtol=0.03)

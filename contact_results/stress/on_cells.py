@@ -330,7 +330,7 @@ class OnCells(BodyResponse):
         margin, far = MARGIN, _depths_at_edge(field, MEASURES)
         if far and np.any(self.state.tractions.get("shear", 0.0)):
             with suppress(ResourceRefused):  # then the first window counts
-                beyond = below(far, WIDE_MARGIN, see_edge=False)
+                beyond = below(sorted(far), WIDE_MARGIN, see_edge=False)
                 wide = below(depths, WIDE_MARGIN, see_edge=self.see_edge, section_only=True)
                 points = StressPoints.concatenate([beyond.points, field.points])
                 field = replace(wide, points=points, edge=field.edge, volume=field.volume)
@@ -338,10 +338,11 @@ class OnCells(BodyResponse):
         return self._beyond_window(field, margin)
 
     def _beyond_window(self, field: StressField, margin: float) -> StressField:
-        """Add points beyond the window at depths whose largest stress lies at its edge.
+        """Add points beyond the window at interfaces, and where a largest stress lies at its edge.
 
         The shear at the interface of a thick layer is largest at about half its thickness from the
-        axis. The window grows until the largest stresses that decay lie within it, see
+        axis. The tension of an interface may begin farther out only: a first wider window looks for
+        it. The window grows until the largest stresses that decay lie within it, see
         `CellWindow.widened`.
 
         margin  smallest half width of the window in half extents of the contact
@@ -351,17 +352,21 @@ class OnCells(BodyResponse):
 
         window = CellWindow.around_contact(self.state, self.indenter, margin)
         contact = max(window.grid.window) / 2
-        while far := _depths_at_edge(field, self.decaying):
+        far = {level.depth for level in _stress_levels(window.body, [], contact)}
+        while far := far | _depths_at_edge(field, self.decaying):
             half = [side / 2 for side in window.grid.window]
             if max(half) > spread(stack_of(window.body), contact, max(far)):
                 break
             window = window.widened()
-            levels = [s for s in _stress_levels(window.body, far, contact) if s.depth in far]
+            levels = [
+                s for s in _stress_levels(window.body, sorted(far), contact) if s.depth in far
+            ]
             beyond = window.largest_outside(levels, half)
-            followed = field.points.at_edge & np.isin(field.points.depth, far)
+            followed = field.points.at_edge & np.isin(field.points.depth, [*far])
             inner = replace(field.points, at_edge=field.points.at_edge & ~followed)
             points = StressPoints.concatenate([inner.flattened, beyond])
             field = replace(field, points=points)
+            far = set()
         return field
 
     @one_thread()
@@ -466,10 +471,10 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _depths_at_edge(field: StressField, measures: Collection[str]) -> list[float]:
+def _depths_at_edge(field: StressField, measures: Collection[str]) -> set[float]:
     """Return the depths where a measure is largest at the edge of the window, and positive."""
     largest = [one for one in extremes(field) if one.measure in measures]
-    return sorted({one.depth for one in largest if one.at_window_edge and one.value > 0})
+    return {one.depth for one in largest if one.at_window_edge and one.value > 0}
 
 
 def _stress_in_window(

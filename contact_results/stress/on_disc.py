@@ -12,7 +12,7 @@ import numpy as np
 from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.points import MEASURES, StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody, is_sheared
-from contact_results.stress.stress_maxima import Extreme, extremes
+from contact_results.stress.stress_maxima import Extreme, extremes, interface_sides
 from contact_scene.array_types import Field
 from contact_scene.machine import one_thread
 from contact_scene.quantities.stated_error import Part
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 # Factor of the reach of the points beside a contact whose largest stresses lie at their outer end.
 WIDER = 3.0
+# Thickness of all layers in contact radii up to which a wider section does not look for tension of
+# interfaces: its waves, as short as the thickness, would take most of the time and memory.
+THIN = 0.1
 SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
@@ -92,10 +95,12 @@ class OnDisc(BodyResponse):
     def _beyond_section(
         self, field: StressField, body: RadialBody
     ) -> tuple[StressField, RadialBody]:
-        """Add points beyond the section at depths whose largest stress lies at its outer end.
+        """Add points beyond the section at interfaces, and where a largest stress lies at its end.
 
         The shear at the interface of a thick layer is largest at about half its thickness from the
-        axis. The reach grows until the largest stresses that decay lie within it.
+        axis. The tension of an interface may begin farther out only: a first wider section looks
+        for it, but not below thin layers. The reach grows until the largest stresses that decay lie
+        within it.
 
         Returns the field, and the body with this reach.
         """
@@ -103,6 +108,10 @@ class OnDisc(BodyResponse):
         from semi_analytical.frf.stack import stack_of
         from semi_analytical.stress.strips import spread
 
+        thickness = sum(layer.thickness for layer in self.body.layers)
+        looked_for: set[float] = set()
+        if thickness > THIN * body.parts.radius:
+            looked_for = {depth for _, _, depth, _ in interface_sides(self.body)}
         while True:
             points, ends = field.points, body.reach * body.parts.radius
             distance = np.hypot(points.x - body.centre, points.y)
@@ -114,14 +123,15 @@ class OnDisc(BodyResponse):
                 for one in extremes(field)
                 if one.measure in self.decaying
             ]
-            far = [float(points.depth[k]) for k in largest if outer[k]]
+            far = looked_for | {float(points.depth[k]) for k in largest if outer[k]}
+            looked_for = set()
             deepest = max(far, default=0.0)
             if not far or ends > spread(stack_of(self.body), body.parts.radius, deepest):
                 break
             body = RadialBody.from_state(
                 self.state, self.indenter, self.fineness, WIDER * body.reach
             )
-            followed = outer & np.isin(points.depth, far)
+            followed = outer & np.isin(points.depth, [*far])
             both_sides = zip(points.depth[followed], points.material[followed], strict=True)
             levels = [Level(float(depth), int(layer)) for depth, layer in sorted({*both_sides})]
             x = body.section[np.abs(body.section - body.centre) > ends]

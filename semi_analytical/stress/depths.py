@@ -14,6 +14,8 @@ ON_INTERFACE = 1e-9
 
 # Default depths in contact radii, dense where the stress of a smooth contact varies most.
 DEFAULT_DEPTHS = (*np.linspace(0.0, 1.0, 21), 1.125, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+# Further depths in a base below layers that reach deeper, over the depth of the base.
+BELOW_LAYERS = (1.25, 1.5, 2.0, 3.0)
 
 NEIGHBOURS = 4
 ON_SAMPLE = 1e-9  # of the spacing
@@ -55,7 +57,8 @@ def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
 def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ...]:
     """Choose the default depths for stress output, from the surface to three contact radii.
 
-    The depths include both sides of each interface, and three depths within each layer.
+    The depths include both sides of each interface, three depths within each layer, and four in the
+    base below layers that reach deeper than three contact radii.
 
     body            body, or its layers and base
     contact_radius  length over which the tractions act [length]
@@ -67,6 +70,8 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
     for top, bottom in zip((0.0, *bottoms), bottoms, strict=False):
         # Layers thinner than the spacing of the depths are resolved.
         depths += [top + (bottom - top) * part for part in (0.25, 0.5, 0.75)]
+    if bottoms and DEFAULT_DEPTHS[-1] * contact_radius < bottoms[-1] < floor:
+        depths += [bottoms[-1] * part for part in BELOW_LAYERS]
     sides = [side for pair in interfaces(stack) for side in pair]
     near = 1e-6 * contact_radius
     between = [_level_at_depth(stack, d) for d in depths if all(abs(d - z) > near for z in bottoms)]
