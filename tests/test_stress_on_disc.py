@@ -291,8 +291,9 @@ def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) 
         ("radial", None),
     ):
         state = state_of_result(slipstick.solve(scene, solver, sizes), 1)
-        found = extremes(body_response(state).stress())
-        named.append({(one.region, one.measure): one for one in found})
+        field = body_response(state).stress()
+        assert field.shown[1] <= 3.01 * state.contact_radius  # deeper points are not drawn
+        named.append({(one.region, one.measure): one for one in extremes(field)})
     cells, rings = named
     assert cells.keys() == rings.keys()
     for key, one in cells.items():

@@ -487,6 +487,7 @@ def _stress_in_window(
 ) -> StressField:
     """Compute the stress below a window of the surface, see `OnCells.stress`."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
+    from semi_analytical.stress.depths import DEFAULT_DEPTHS
 
     state, grid, radius = window.state, window.grid, window.state.contact_radius
     if radius is None:
@@ -517,6 +518,9 @@ def _stress_in_window(
         planes += [field] if volume else []
     plane = SubsurfaceField.joined(sections)
     section = _stress_points(plane, grid)
+    deepest = float(plane.depths[-1])
+    if depths is None:  # those in the base below thick layers are for the largest stresses
+        deepest = min(deepest, DEFAULT_DEPTHS[-1] * radius)
     fitted = None
     if edge is not None:
         on_edge = _edge_points(edge, edge.stress() + state.bulk_stress(0, window.indenter)[:, None])
@@ -529,7 +533,7 @@ def _stress_in_window(
         _axis_points(plane),
         _stress_points(SubsurfaceField.joined(planes), grid).add_cells() if volume else None,
         "x at y = 0",
-        (float(plane.x[-1]), float(plane.depths[-1])),
+        (float(plane.x[-1]), deepest),
         {
             "contact_radius": radius,
             "cells": list(grid.cells),
