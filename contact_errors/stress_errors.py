@@ -166,7 +166,8 @@ def stress_errors(
     The largest stresses are compared with those below the pressure of the radial solver, if this
     solver has the same pressure and no shear acts. Otherwise the stress is computed again from
     coarse surface tractions, and the largest stresses are compared. The errors of the tractions by
-    increments and by the points of a measured indenter are added. Their error by the cells is not
+    increments and by the points of a measured indenter are added. An error has not converged if no
+    number of the run shows that of the shear (see `LoadedBodies`). Their error by the cells is not
     added, because it is far smaller than the effect of the coarse tractions on the stress.
 
     state      bodies and surface tractions of a contact result

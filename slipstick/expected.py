@@ -30,12 +30,7 @@ from contact_scene.reading.scene_error import dotted_key, shown
 from slipstick.sweep import SCALARS
 from verification.judging.outcome import ChangeKind
 from verification.regression.change_row import ChangeRow, rows_that_matter
-from verification.regression.comparison import (
-    BETTER_BY,
-    NOISE,
-    WORSE_BY,
-    has_grown,
-)
+from verification.regression.comparison import BETTER_BY, NOISE, WORSE_BY, has_grown
 from verification.running.study import CaseRecord
 
 WHAT = "file of expected numbers"

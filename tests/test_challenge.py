@@ -233,6 +233,11 @@ REFUSED = [
         '"name": "x", "claimed_orders": {"presure": 2}',
         "claimed order of 'presure': no such quantity; asked here: approach",
     ),
+    (
+        r"\"name\": \"stranger <b>\"",
+        '"name": "x", "claimed_orders": {"pressure": -1}',
+        "key solver.claimed_orders.pressure: got -1",
+    ),
     (r"\"case_version\": \"\w*\"", '"case_version": "old"', "for version old of hertz_point"),
     (r"\"h\": 4.5e-06", '"h": null', "key levels[1].h: got a NoneType"),
     (r"\"h\": 4.5e-06", '"h": -1', "level 1: h is -1.0, expected a positive length"),

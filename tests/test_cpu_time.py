@@ -6,9 +6,7 @@ import pytest
 
 from contact_results.directory.atomic_file import Refused
 from verification.judging.outcome import ChangeKind
-from verification.regression.baseline import (
-    recorded_by,
-)
+from verification.regression.baseline import recorded_by
 from verification.regression.cpu_time import CpuTimes, cpu_seconds, cpu_time_changes
 from verification.running.provenance import provenance
 

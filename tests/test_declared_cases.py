@@ -25,10 +25,7 @@ from verification.judging.case import (
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status, Verdict
 from verification.problems.problem import ReferenceKind
-from verification.regression.baseline import (
-    Key,
-    key_of,
-)
+from verification.regression.baseline import Key, key_of
 
 
 def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:

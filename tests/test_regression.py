@@ -31,9 +31,7 @@ from verification.regression.baseline import (
     key_of,
     read_baselines,
 )
-from verification.regression.comparison import (
-    compared,
-)
+from verification.regression.comparison import compared
 
 REASON = "first numbers | of <b>this</b> test"
 

@@ -19,9 +19,7 @@ from report_examples import (
 )
 
 from slipstick.cli.errors import ExitCode, exit_code
-from verification.regression.baseline import (
-    accept,
-)
+from verification.regression.baseline import accept
 from verification.report.file_names import JUNIT, PACKED, PAGE, RECORD, SHEETS, SUMMARY
 from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
 from verification.report.summary_text import (

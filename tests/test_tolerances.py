@@ -15,10 +15,7 @@ from verification.judging.outcome import (
     Status,
     Verdict,
 )
-from verification.regression.baseline import (
-    BaselineRefused,
-    read_baselines,
-)
+from verification.regression.baseline import BaselineRefused, read_baselines
 from verification.regression.tolerances import (
     LEAST,
     MOVED,

@@ -64,8 +64,8 @@ class LoadedBodies:
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the tractions relative to the tractions; None if unknown
-    shear_measured  False if the error of the shear is unknown, see `_shear_error`
     by_map          the same for the points of a measured indenter; 0 for other shapes
+    shear_measured  False if no number of the run shows the error of the shear
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
                     pressure at every radius; None if the pressure is known on cells or rings only
@@ -85,8 +85,8 @@ class LoadedBodies:
     no_root: str | None = None
     edges: bool = False
     by_increments: float | None = None
-    shear_measured: bool = True
     by_map: float | None = None
+    shear_measured: bool = True
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None

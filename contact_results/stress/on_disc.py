@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 WIDER = 3.0
 # Thickness of all layers in contact radii up to which a wider section does not look for tension of
 # interfaces: its waves, as short as the thickness, would take most of the time and memory.
-THIN = 0.1
+LEAST_THICKNESS = 0.1
 SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
@@ -110,7 +110,7 @@ class OnDisc(BodyResponse):
 
         thickness = sum(layer.thickness for layer in self.body.layers)
         looked_for: set[float] = set()
-        if thickness > THIN * body.parts.radius:
+        if thickness > LEAST_THICKNESS * body.parts.radius:
             looked_for = {depth for _, _, depth, _ in interface_sides(self.body)}
         while True:
             points, ends = field.points, body.reach * body.parts.radius

@@ -87,6 +87,7 @@ TEMPLATES = Path(__file__).parent / "templates"
 # Texts and truth values are no numbers.
 Number = Annotated[float, Described(strict=True)]
 Whole = Annotated[int, Described(strict=True)]
+Order = Annotated[float, Described(strict=True, gt=0)]
 
 
 class GivenSolver(Description):
@@ -99,7 +100,7 @@ class GivenSolver(Description):
     """Values of fields: "point", or "cell" for means over squares of the areas."""
 
     claimed_grade: Grade | None = None
-    claimed_orders: dict[str, Number] = Described(default_factory=dict)
+    claimed_orders: dict[str, Order] = Described(default_factory=dict)
 
 
 class GivenNumber(Description):

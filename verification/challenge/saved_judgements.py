@@ -25,14 +25,9 @@ from verification.judging.outcome import (
     finite,
     moved_text,
 )
-from verification.regression.baseline import (
-    JudgedQuantity,
-)
+from verification.regression.baseline import JudgedQuantity
 from verification.regression.change_row import ABSENT, ChangeRow, count_row, rows_that_matter
-from verification.regression.comparison import (
-    count_change,
-    quantity_change,
-)
+from verification.regression.comparison import count_change, quantity_change
 
 WHAT = "file of judgements"
 REMEDY = "restore it, or delete it and save the judgement again by --save"

@@ -21,10 +21,7 @@ from contact_results.directory.atomic_file import Refused
 from contact_results.directory.json_record import read_record, write_record
 from contact_scene.reading.description import Description
 from verification.judging.outcome import ChangeKind
-from verification.regression.baseline import (
-    RecordedBy,
-    recorded_by,
-)
+from verification.regression.baseline import RecordedBy, recorded_by
 from verification.regression.change_row import ChangeRow, rows_that_matter
 from verification.running.provenance import Provenance
 

@@ -19,11 +19,7 @@ from verification.judging.outcome import (
     Status,
     Verdict,
 )
-from verification.regression.baseline import (
-    RESTORE,
-    BaselineRefused,
-    key_of,
-)
+from verification.regression.baseline import RESTORE, BaselineRefused, key_of
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome

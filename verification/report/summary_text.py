@@ -31,9 +31,7 @@ from verification.judging.outcome import (
 )
 from verification.problems.problem import ReferenceKind
 from verification.regression.change_row import ABSENT, ChangeRow, count_row, rows_that_matter
-from verification.regression.comparison import (
-    NOISE,
-)
+from verification.regression.comparison import NOISE
 from verification.running.provenance import age_text, is_current
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text, study_failure_line

@@ -11,13 +11,8 @@ from slipstick.cli.commands.report import read_report
 from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import commit_text
-from verification.regression.baseline import (
-    BASELINES,
-    read_baselines,
-)
-from verification.regression.baseline import (
-    accept as accept_numbers,
-)
+from verification.regression.baseline import BASELINES, read_baselines
+from verification.regression.baseline import accept as accept_numbers
 
 
 def baseline(

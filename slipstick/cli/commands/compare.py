@@ -12,15 +12,8 @@ from slipstick.cli.commands.report import read_report
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
 from verification.judging.outcome import ChangeKind, failure_line
-from verification.regression.baseline import (
-    Baseline,
-    baselines_of,
-    read_baselines,
-)
-from verification.regression.comparison import (
-    compared,
-    refuse_if_not_whole,
-)
+from verification.regression.baseline import Baseline, baselines_of, read_baselines
+from verification.regression.comparison import compared, refuse_if_not_whole
 from verification.report.files import record_in
 from verification.report.summary_text import change_rows, changes_text, origins, without_baseline
 from verification.running.provenance import age_text

@@ -10,11 +10,7 @@ import typer
 from slipstick.cli.commands.report import read_report
 from slipstick.cli.options import optional
 from slipstick.cli.terminal import print_table
-from verification.regression.tolerances import (
-    accept_tolerances,
-    proposed,
-    read_tolerances,
-)
+from verification.regression.tolerances import accept_tolerances, proposed, read_tolerances
 
 
 def tolerances(

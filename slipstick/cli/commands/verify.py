@@ -25,16 +25,9 @@ from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
 from verification.cases.requirements import unmet
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
-from verification.regression.baseline import (
-    read_baselines,
-)
-from verification.regression.comparison import (
-    compared,
-)
-from verification.regression.tolerances import (
-    held_to,
-    read_tolerances,
-)
+from verification.regression.baseline import read_baselines
+from verification.regression.comparison import compared
+from verification.regression.tolerances import held_to, read_tolerances
 from verification.report.file_names import PAGE
 from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
 from verification.report.summary_text import (
