@@ -288,7 +288,7 @@ class Levels:
         run, coarse = compare_with_coarse_solves(self.solver, result, by_references=known)
         values, errors = list(run.values), list(run.errors())
         if self.stress_at is not None:
-            at, stated = self.stress_at - 1, StatedErrors(tuple(errors), coarse)
+            at, stated = self.stress_at - 1, run.stated_errors(coarse)
             wanted = (f"{LARGEST_TENSION}@body",)
             for value, error in largest_stresses(result, stated, wanted, self.stress_at).values():
                 values[at] = {**values[at], LARGEST_TENSION: np.array([abs(value)])}
@@ -300,7 +300,7 @@ class Levels:
             fineness=self.solver.fineness_of(result),
             result=result,
             values=values,
-            stated=StatedErrors(tuple(errors), coarse),
+            stated=StatedErrors(tuple(errors), coarse, run.shear_errors),
             run=run,
             seconds=time.perf_counter() - began,
             solve_seconds=solved_processor - began_processor,

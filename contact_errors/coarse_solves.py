@@ -10,9 +10,12 @@ from dataclasses import replace
 from math import log
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
+    SHEAR,
     Comparison,
     SolvedRun,
     Values,
@@ -21,6 +24,7 @@ from contact_errors.error_formula import (
 )
 from contact_errors.known_pressing import known_pressing
 from contact_results.solvers import solver_of
+from contact_results.surface import surface_of
 from contact_scene import Scene
 from contact_scene.contact_features import Features
 from contact_scene.discretised import (
@@ -173,21 +177,38 @@ def _compare_increments(
     else:
         return run, [], []
     differs = f"few {cells}, other increments"
+    base = _with_shear(first)
     others = [
-        (count, other[1])
+        (count, _with_shear(other))
         for count in coarse_increment_counts(run.increments, matters)
         if (other := solves.solve(differs, replace(coarse, increments=count)))
     ]
     comparisons = [
-        Comparison("increments", first[1], values, ratios(coarse.increments, count, matters))
+        Comparison("increments", base, values, ratios(coarse.increments, count, matters))
         for count, values in others
     ]
     if len(others) > 1:
-        comparisons.append(compare_with_limit(first[1], coarse.increments, others, matters))
+        comparisons.append(compare_with_limit(base, coarse.increments, others, matters))
     fewest = fewest_increments(run.increments, matters)
     if not (other := solves.solve(differs, replace(coarse, increments=fewest))):
         return run, comparisons, []
     return replace(run, increments=fewest), comparisons, [(first[1], other[1])]
+
+
+def _with_shear(solved: Solved) -> Sequence[Values]:
+    """Add the shear on the surface to the scalars of a coarse solve at the end of each load step.
+
+    The traction is multiplied by the root of the area of each point, so that sums of its squares
+    are integrals over the surface.
+    """
+    result, values = solved
+    surface = surface_of(result)
+    root = np.sqrt(surface.weights)
+    found = []
+    for here, end in zip(values, result.steps, strict=True):
+        shear = surface.vector(end, "shear")
+        found.append(here if shear is None else {**here, SHEAR: np.ravel(root * shear)})
+    return found
 
 
 def _compare_cells(
@@ -254,7 +275,7 @@ def stated_errors(result: Any) -> StatedErrors:
     discretisations. The errors follow from the differences between these solves and the result.
     """
     run, coarse = compare_with_coarse_solves(solver_of(result), result)
-    return StatedErrors(tuple(run.errors()), coarse)
+    return run.stated_errors(coarse)
 
 
 def _references(solver: DiscretisedSolver) -> Sequence[Sequence[Values]]:

@@ -55,9 +55,11 @@ from contact_scene.quantities.increment import SCALARS, State
 from contact_scene.quantities.stated_error import (
     EXACT,
     Amount,
+    CoarseSolveRecord,
     ErrorStatus,
     Part,
     StatedError,
+    StatedErrors,
 )
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.rig import Rig, prescribed_motions
@@ -65,7 +67,7 @@ from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import ControlKind
 
 Numbers = NDArray[np.float64]
-# Scalars of a state by name: arrays of shape (1,), or (2,) for a vector.
+# Scalars of a state by name: arrays of shape (1,), or (2,) for a vector; also its shear traction.
 Values: TypeAlias = Mapping[str, Numbers]
 
 # Parts of errors that the formula of the spread estimates.
@@ -99,6 +101,8 @@ NARROWEST = 0.1
 LOST = frozenset({"dissipated_energy", *OF_CYCLES})
 # Sizes of the stick zone, with the power of a length.
 STICK_SIZES: Mapping[str, float] = MappingProxyType({"stick_radius": 1.0, "stick_area": 2.0})
+# Name of the shear traction among the scalars of solves with different increments.
+SHEAR = "shear"
 # Reason why an error is not converged.
 TOO_LARGE = "the error exceeds the number"
 
@@ -285,6 +289,31 @@ class SolvedRun:
                 name: EXACT if name in exact else self._estimate_error(step, name, before)
                 for name in self.values[step]
             }
+
+    @cached_property
+    def shear_errors(self) -> tuple[float | None, ...]:
+        """Relative error of the shear by the increments at the end of each load step.
+
+        Shear by pressing, by strain or by earlier loads hardly changes any scalar. Its error is
+        therefore that of the traction itself: the root mean square over the surface, relative to
+        that of the shear. It is 0 without shear, and None if no coarse solve has a result.
+        """
+        found: list[float | None] = []
+        for step, needs in enumerate(self.required["increments"]):
+            error = self._parts(step, SHEAR).get("increments")
+            if error is None:
+                found.append(None if needs else 0.0)
+                continue
+            shear = next(
+                one.base[step][SHEAR] for one in self.comparisons if SHEAR in one.base[step]
+            )
+            size = float(np.linalg.norm(shear))
+            found.append(float(np.linalg.norm(error)) / size if size else 0.0)
+        return tuple(found)
+
+    def stated_errors(self, coarse: tuple[CoarseSolveRecord, ...]) -> StatedErrors:
+        """Return the error estimates of all load steps with the records of the coarse solves."""
+        return StatedErrors(tuple(self.errors()), coarse, self.shear_errors)
 
     def _estimate_error(
         self, step: int, name: str, before: dict[str, dict[Part, Numbers]]

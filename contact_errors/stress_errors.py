@@ -79,7 +79,6 @@ AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
-NOT_MEASURED = "no number of the run shows the error of the shear, which the stress has as well"
 COARSE = 2.0  # coarsening factor of the tractions
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
@@ -166,9 +165,9 @@ def stress_errors(
     The largest stresses are compared with those below the pressure of the radial solver, if this
     solver has the same pressure and no shear acts. Otherwise the stress is computed again from
     coarse surface tractions, and the largest stresses are compared. The errors of the tractions by
-    increments and by the points of a measured indenter are added. An error has not converged if no
-    number of the run shows that of the shear (see `LoadedBodies`). Their error by the cells is not
-    added, because it is far smaller than the effect of the coarse tractions on the stress.
+    increments and by the points of a measured indenter are added: that of the shear as the change
+    of the stress by more shear. Their error by the cells is not added, because it is far smaller
+    than the effect of the coarse tractions on the stress.
 
     state      bodies and surface tractions of a contact result
     field      stress field of the body
@@ -188,30 +187,36 @@ def stress_errors(
             # A largest stress that the reference lacks decays to zero outside.
             exact = known.get((extreme.region, extreme.measure), 0.0)
             size = abs(extreme.value - exact) + REFERENCE_PRECISION * abs(exact)
-            errors.append(_stated(pressing, part, extreme.value, size, None))
+            errors.append(_stated(pressing, part, extreme.value, (size, 0.0), None))
         return tuple(errors)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
     near = NEAR * _traction_cell_width(state)
     reach = _reach_of_edge(state, near)
     here = _largest_by_place(field, near, reach)
-    there = [
-        _largest_by_place(coarse.stress(sampled), near, reach) for coarse in response.compared()
-    ]
+    compared = response.compared()
+    there = [_largest_by_place(coarse.stress(sampled), near, reach) for coarse in compared]
+    more = there[0]
+    if state.shear_error:
+        changed = compared[0].with_more_shear(state.shear_error)
+        more = _largest_by_place(changed.stress(sampled), near, reach)
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     for extreme in found:
-        largest, unresolved = 0.0, False
+        largest, by_shear, unresolved = 0.0, 0.0, False
         tension = extreme.measure == LARGEST_TENSION
         shallow = extreme.on_edge or (extreme.depth < near and abs(extreme.x) <= reach)
         for at_edge, values in here.items():
-            value = values.get((extreme.region, extreme.measure))
+            key = extreme.region, extreme.measure
+            value = values.get(key)
             if value is None or (at_edge and not (shallow or tension)):
                 continue
             order = SMOOTH if not at_edge else EDGE if fitted else ROOT
-            others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
+            others = [each[at_edge].get(key, 0.0) for each in there]
+            change = abs(more[at_edge].get(key, 0.0) - others[0])
+            by_shear = max(by_shear, value + change - extreme.value)
             spread = sqrt(np.mean([(value - other) ** 2 for other in others]))
             error = _error_per_spread(order) * spread
             if not shallow:
@@ -229,7 +234,7 @@ def stress_errors(
             (infinite and shallow and not tension, INFINITE),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        errors.append(_stated(state, part, extreme.value, largest, reason))
+        errors.append(_stated(state, part, extreme.value, (largest, by_shear), reason))
     return tuple(errors)
 
 
@@ -265,22 +270,28 @@ def _reference_maxima(
 
 
 def _stated(
-    state: LoadedBodies, part: Part, value: float, size: float, reason: str | None
+    state: LoadedBodies,
+    part: Part,
+    value: float,
+    sizes: tuple[float, float],
+    reason: str | None,
 ) -> StatedError:
     """Build the stated error of a stress, with the parts that the errors of the tractions cause.
 
     part    name of the part by the cells, elements or points
-    size    size of this part [force/length^2]
+    sizes   this part, and the change by the error of the shear [force/length^2]
     reason  reason why the error is unreliable, or None
     """
+    size, by_shear = sizes
+    causes: dict[Part, float] = {
+        "increments": (state.by_increments or 0.0) * abs(value) + by_shear,
+        "map": (state.by_map or 0.0) * abs(value),
+    }
     parts: dict[Part, Field] = {part: np.array([size])}
-    causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
-    parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
-    if state.by_increments is None and is_sheared(state):
+    parts |= {cause: np.array([of_cause]) for cause, of_cause in causes.items() if of_cause}
+    if None in (state.by_increments, state.shear_error) and is_sheared(state):
         reason = reason or NO_ERRORS
-    elif not state.shear_measured:
-        reason = reason or NOT_MEASURED
-    small = size <= LARGEST_SHARE * abs(value)
+    small = size + sum(causes.values()) <= LARGEST_SHARE * abs(value)
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
 
@@ -375,13 +386,16 @@ def _stress_errors_on_disc(
     x, y = np.array([(e.x, e.y) for e in found]).T
     (finer,) = response.compared()
     try:
-        again = finer.stress_at(x, y, levels).measures
+        again = more = finer.stress_at(x, y, levels).measures
+        if state.shear_error:
+            more = finer.with_more_shear(state.shear_error).stress_at(x, y, levels).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
         size += PRECISION * abs(e.value) + _between_levels(points, measures[e.measure], e)
+        by_shear = abs(more[e.measure][k] - again[e.measure][k])
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
-        errors.append(_stated(state, response.part, e.value, size, reason))
+        errors.append(_stated(state, response.part, e.value, (size, by_shear), reason))
     return tuple(errors)

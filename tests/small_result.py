@@ -31,4 +31,5 @@ def small_errors(result: Result) -> StatedErrors:
             for end in result.steps
         ),
         (),
+        tuple(10.0 ** (-2 - end.step) for end in result.steps),
     )

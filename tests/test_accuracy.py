@@ -201,7 +201,7 @@ def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> Non
     result = solve(pressed, grid, 1e-6)
     expected = bytes_below_contact(grid)
     tracemalloc.start()
-    largest_stresses(result, StatedErrors(({},), ()), ["max_principal@body"])
+    largest_stresses(result, StatedErrors(({},), (), (None,)), ["max_principal@body"])
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert 0.5 * expected < peak < expected
@@ -303,7 +303,7 @@ def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> Refinemen
     error = StatedError(error=sum(parts.values()), parts=parts, status=status)
     values = [dict.fromkeys(SIZES, np.array([2.0]))]
     run = SolvedRun(scene(PRESS), values, [1e-8], [Features(10)], [], {"cells": [True]}, {})
-    stated = StatedErrors(({"approach": error},), ())
+    stated = StatedErrors(({"approach": error},), (), (None,))
     return RefinementLevel(None, None, values, stated, run, 1.0, 0.5, 0.5)
 
 
@@ -334,12 +334,12 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
     fine, rough = (level_of({"cells": error}) for error in (1e-4, 0.5))
     steps = (*fine.stated.steps, *rough.stated.steps)
     for order in (steps, steps[::-1]):
-        level = replace(fine, values=[*fine.values] * 2, stated=StatedErrors(order, ()))
+        level = replace(fine, values=[*fine.values] * 2, stated=StatedErrors(order, (), (None,) * 2))
         assert level.reached_error("approach") == 0.25
         assert not level.meets({"approach": 0.1})
     both = {"approach": steps[0]["approach"], "twist": steps[1]["approach"]}
     values = [dict.fromkeys((*SIZES, *both), np.array([2.0]))]
-    assert not replace(fine, values=values, stated=StatedErrors((both,), ())).meets(
+    assert not replace(fine, values=values, stated=StatedErrors((both,), (), (None,))).meets(
         dict.fromkeys(both, 0.1)
     )
 

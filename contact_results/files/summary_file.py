@@ -51,7 +51,7 @@ def summary_of(report: ResultReport) -> RunSummary:
     The summary has no warnings.
     """
     result, errors = report.result, report.errors
-    stated = errors.steps if errors else repeat(None)
+    stated = zip(errors.steps, errors.shear, strict=True) if errors else repeat((None, None))
     closed = {cycle.cycle.end: cycle for cycle in report.cycles}
     grid = getattr(result, "grid", None)
     increments: Sequence[Increment] = result.increments
@@ -63,7 +63,7 @@ def summary_of(report: ResultReport) -> RunSummary:
         window=grid and grid.window,
         effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in result.plan.effects),
         steps=tuple(
-            _step_summary(list(within), closed.get(step), of_step)
+            _step_summary(list(within), closed.get(step), *of_step)
             for (step, within), of_step in zip(
                 groupby(increments, lambda increment: increment.step), stated, strict=False
             )
@@ -77,6 +77,7 @@ def _step_summary(
     within: Sequence[Increment],
     cycle: FrettingCycle | None,
     errors: Mapping[str, StatedError] | None,
+    shear_error: float | None,
 ) -> StepSummary:
     end = within[-1]
     residuals: dict[str, Any] = {
@@ -91,6 +92,7 @@ def _step_summary(
         residuals=Residuals(**residuals),
         status=end.status,
         errors=None if errors is None else dict(errors),
+        shear_error=shear_error,
     )
 
 

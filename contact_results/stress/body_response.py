@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import MEASURES, ON_INTERFACES, StressField, StressPoints
@@ -75,6 +75,14 @@ class BodyResponse(ABC):
     @abstractmethod
     def compared(self) -> Sequence[BodyResponse]:
         """Return responses of another fineness, whose stress is compared for an error estimate."""
+
+    def with_more_shear(self, share: float) -> Self:
+        """Return the response to tractions whose shear is larger by a share of itself."""
+        tractions = {
+            name: field if name == "pressure" else (1 + share) * field
+            for name, field in self.state.tractions.items()
+        }
+        return replace(self, state=replace(self.state, tractions=tractions))
 
     @abstractmethod
     def drawn_stress(self) -> StressField | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import inf
@@ -45,9 +45,10 @@ class NoSuchState(Refused):
 
 
 ROUNDING = 1e-9  # relative to the approach: smaller shifts are round-off
-# Resultant of the shear over the integral of its magnitude (or torque over the integral of radius
-# times magnitude) from which on shift and twist show the error of the shear.
-FAIR = 0.5
+# Scalars whose errors, beside that of the largest pressure, show those of the pressure, and those
+# of pressure and shear.
+OF_PRESSURE = ("approach",)
+OF_TRACTIONS = ("approach", "tangential_shift", "twist")
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,10 @@ class LoadedBodies:
     no_root         reason why the tractions may not fall like the square root of the distance from
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
-    by_increments   increment error of the tractions relative to the tractions; None if unknown
-    by_map          the same for the points of a measured indenter; 0 for other shapes
-    shear_measured  False if no number of the run shows the error of the shear
+    by_increments   increment error of the pressure relative to the pressure; None if unknown
+    shear_error     the same of the shear
+    by_map          error of the tractions by the points of a measured indenter, relative to the
+                    tractions; 0 for other shapes; None if unknown
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
                     pressure at every radius; None if the pressure is known on cells or rings only
@@ -85,8 +87,8 @@ class LoadedBodies:
     no_root: str | None = None
     edges: bool = False
     by_increments: float | None = None
+    shear_error: float | None = None
     by_map: float | None = None
-    shear_measured: bool = True
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None
@@ -163,8 +165,11 @@ def state_of_result(
     """
     ends = result.steps
     number = _step_index(step, len(ends))
-    stated = None if errors is None else errors.steps[number]
-    return _require_contact(loaded_bodies(result, surface_of(result), ends[number], stated))
+    stated, of_shear = (
+        (None, None) if errors is None else (errors.steps[number], errors.shear[number])
+    )
+    surface = surface_of(result)
+    return _require_contact(loaded_bodies(result, surface, ends[number], stated, of_shear))
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -189,8 +194,9 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     """
     with _open_run(directory) as run:
         number = _step_index(step, len(run.summary.steps))
-        end, errors = run.end_of_step(number), run.summary.steps[number].errors
-        return _require_contact(loaded_bodies(run, run.surface, end, errors))
+        end, summary = run.end_of_step(number), run.summary.steps[number]
+        state = loaded_bodies(run, run.surface, end, summary.errors, summary.shear_error)
+        return _require_contact(state)
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -235,24 +241,25 @@ def loaded_bodies(
     surface: Surface,
     end: Any,
     errors: Mapping[str, StatedError] | None = None,
+    shear_error: float | None = None,
 ) -> LoadedBodies | None:
     """Combine the tractions of an increment with the data of its scene; None without contact.
 
-    source   result or stored run that contains the increment
-    surface  surface grid of the tractions
-    end      scalars and fields at the end of the increment
-    errors   stated errors of these scalars, by name; None if not needed
+    source       result or stored run that contains the increment
+    surface      surface grid of the tractions
+    end          scalars and fields at the end of the increment
+    errors       stated errors of these scalars, by name; None if not needed
+    shear_error  increment error of the shear relative to the shear; None if unknown
     """
     if not end.contact_area:
         return None
     scene = source.scene
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
-    by_increments, of_shear = None, None
+    by_increments, by_map = None, None
     if errors is not None:
-        by_increments = _relative_part(end, errors, "increments")
-        of_shear = _shear_error(surface, end, errors, fields)
-        by_increments = None if by_increments is None else max(by_increments, of_shear or 0.0)
+        by_increments = _relative_part(end, errors, "increments", OF_PRESSURE)
+        by_map = _relative_part(end, errors, "map", OF_TRACTIONS)
     return LoadedBodies(
         title=scene.title,
         body=scene.body,
@@ -264,8 +271,8 @@ def loaded_bodies(
         no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
         by_increments=by_increments,
-        shear_measured=errors is None or of_shear is not None,
-        by_map=None if errors is None else _relative_part(end, errors, "map"),
+        shear_error=shear_error,
+        by_map=by_map,
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
         contact_radius=end.contact_radius,
@@ -275,52 +282,19 @@ def loaded_bodies(
     )
 
 
-def _shear_error(
-    surface: Surface,
-    end: State,
-    errors: Mapping[str, StatedError],
-    fields: Mapping[str, Field | None],
+def _relative_part(
+    end: State, errors: Mapping[str, StatedError], part: Part, names: Sequence[str]
 ) -> float | None:
-    """Estimate the relative error by the increments of shear that no tangential load requires.
-
-    Shear by pressing, by strain or by earlier loads changes peak pressure and approach little:
-    their errors do not show its error. The dissipated energy does. Where all sticks, nothing is
-    dissipated, and the error is unknown: None. It is 0 for shear of which the tangential load is a
-    fair share, as the errors of shift and twist show its error.
-
-    surface  surface grid of the tractions
-    end      scalars at the end of the increment
-    errors   stated errors of these scalars, by name
-    fields   tractions by name; None for absent ones
-    """
-    components: list[Field] = []
-    for name, field in fields.items():
-        if field is not None and name != "pressure":
-            components += list(field) if name == "shear" else [field]
-    shear = np.sqrt(sum((one**2 for one in components), np.zeros(()))) * surface.weights
-    if not np.any(shear):
-        return 0.0
-    given = end.tangential_force
-    force = 0.0 if given is None else float(np.hypot.reduce(np.atleast_1d(given)))
-    arms = shear * np.hypot.reduce(surface.positions)
-    if force >= FAIR * np.sum(shear) or abs(end.torque or 0.0) >= FAIR * np.sum(arms):
-        return 0.0
-    lost, energy = errors.get("dissipated_energy"), end.dissipated_energy or 0.0
-    if lost is None or lost.error is None or float(np.max(lost.error)) >= energy:
-        return None
-    return float(np.max(lost.parts.get("increments", 0.0))) / energy
-
-
-def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) -> float | None:
     """Estimate the relative error of the tractions that is due to one cause, such as increments.
 
-    The estimate is the largest relative part of the errors of peak pressure, approach, tangential
-    shift and twist. If the peak pressure has no error because it is infinite, the contact radius
-    replaces it.
+    The estimate is the largest relative part of the errors of the peak pressure and of other
+    scalars. If the peak pressure has no error because it is infinite, the contact radius replaces
+    it.
 
     end     scalars at the end of the increment
     errors  stated errors of these scalars, by name
     part    part of the errors
+    names   names of the other scalars
 
     Returns None if the error of any of them is unknown.
     """
@@ -329,7 +303,7 @@ def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) ->
     approach = abs(end.approach or 0.0)
     round_off = {"twist": ROUNDING * approach / (end.contact_radius or inf)}
     parts = []
-    for name in (of_pressure, "approach", "tangential_shift", "twist"):
+    for name in (of_pressure, *names):
         value, error = getattr(end, name), errors.get(name)
         if value is None or error is None or error.status is ErrorStatus.EXACT:
             continue

@@ -99,10 +99,13 @@ class StatedErrors:
 
     steps          errors of each load step, by the names of the scalars
     coarse_solves  coarse solves of the scene
+    shear          error of the shear traction by the increments at the end of each load step: its
+                   root mean square over the surface, relative to that of the shear; None if unknown
     """
 
     steps: tuple[Mapping[str, StatedError], ...]
     coarse_solves: tuple[CoarseSolveRecord, ...]
+    shear: tuple[float | None, ...]
 
 
 class AccuracySettings(Description):

@@ -34,7 +34,7 @@ from contact_scene.reading.description import (
     Description,
 )
 
-SUMMARY_VERSION = 5
+SUMMARY_VERSION = 6
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
@@ -190,6 +190,10 @@ class StepSummary(Quality, ClosedCycle, State):
     errors: dict[str, StatedError] | None = None
     """Error estimate of each scalar, by its name; null for a run without error estimates. Numerical
     measures have none."""
+
+    shear_error: Ratio | None = None
+    """Error of the shear traction by the increments: its root mean square over the surface,
+    relative to that of the shear; null for a run without error estimates, and if it is unknown."""
 
 
 class EffectSummary(Description):
