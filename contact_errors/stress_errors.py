@@ -369,7 +369,7 @@ def _stress_errors_on_disc(
 
     The stresses at the same points are computed again with twice the numbers of Legendre orders and
     quadrature points. The differences yield the errors, with the excess of a maximum between the
-    depths of the points.
+    depths of the points, and with the error of the tractions with shear by their rings.
 
     response  body below the tractions of the radial solver
     points    points of the stress field
@@ -379,6 +379,7 @@ def _stress_errors_on_disc(
 
     state = response.state
     state = state if is_sheared(state) else replace(state, by_increments=0.0)
+    by_rings = (state.by_rings or 0.0) if is_sheared(state) else 0.0
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
@@ -394,7 +395,9 @@ def _stress_errors_on_disc(
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += PRECISION * abs(e.value) + _between_levels(points, measures[e.measure], e)
+        size += (PRECISION + by_rings) * abs(e.value) + _between_levels(
+            points, measures[e.measure], e
+        )
         by_shear = abs(more[e.measure][k] - again[e.measure][k])
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
         errors.append(_stated(state, response.part, e.value, (size, by_shear), reason))

@@ -334,7 +334,9 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
     fine, rough = (level_of({"cells": error}) for error in (1e-4, 0.5))
     steps = (*fine.stated.steps, *rough.stated.steps)
     for order in (steps, steps[::-1]):
-        level = replace(fine, values=[*fine.values] * 2, stated=StatedErrors(order, (), (None,) * 2))
+        level = replace(
+            fine, values=[*fine.values] * 2, stated=StatedErrors(order, (), (None,) * 2)
+        )
         assert level.reached_error("approach") == 0.25
         assert not level.meets({"approach": 0.1})
     both = {"approach": steps[0]["approach"], "twist": steps[1]["approach"]}

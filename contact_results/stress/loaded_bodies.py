@@ -66,6 +66,8 @@ class LoadedBodies:
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the pressure relative to the pressure; None if unknown
     shear_error     the same of the shear
+    by_rings        error of the tractions of the radial solver by its rings, relative to the
+                    tractions; 0 for other solvers; None if unknown
     by_map          error of the tractions by the points of a measured indenter, relative to the
                     tractions; 0 for other shapes; None if unknown
     direction       unit vector of the tangential load, at angle 0 of rings
@@ -88,6 +90,7 @@ class LoadedBodies:
     edges: bool = False
     by_increments: float | None = None
     shear_error: float | None = None
+    by_rings: float | None = None
     by_map: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
@@ -256,9 +259,10 @@ def loaded_bodies(
     scene = source.scene
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
-    by_increments, by_map = None, None
+    by_increments, by_rings, by_map = None, None, None
     if errors is not None:
         by_increments = _relative_part(end, errors, "increments", OF_PRESSURE)
+        by_rings = _relative_part(end, errors, "quadrature", OF_PRESSURE)
         by_map = _relative_part(end, errors, "map", OF_TRACTIONS)
     return LoadedBodies(
         title=scene.title,
@@ -272,6 +276,7 @@ def loaded_bodies(
         edges=end.edge_change is not None,
         by_increments=by_increments,
         shear_error=shear_error,
+        by_rings=by_rings,
         by_map=by_map,
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,

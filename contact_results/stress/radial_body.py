@@ -282,8 +282,15 @@ class RadialBody:
         r, theta = np.hypot(x - self.centre, y), np.arctan2(y, x - self.centre)
         across, down = adjacent_spacing(self.radii, r), adjacent_spacing(self.parts.depths, z)
         down = min(down, (bottom - top) / IN_LAYER)
-        # A maximum in the plane of the section stays in it, by symmetry.
-        around = np.pi / (ANGLES + 1) if abs(y) > 1e-9 * radius else 0.0
+        around = 0.0
+        if not self.is_round:
+            # In the plane of the section, the stress may be smallest along its circle, by symmetry.
+            turned = np.append(theta, np.pi * np.arange(ANGLES + 2) / (ANGLES + 1))
+            at, to = self.centre + r * np.cos(turned), r * np.sin(turned)
+            circle = self.stress_points([Level(z, material)], at, to).measures[extreme.measure]
+            theta = float(turned[np.argmax(circle)])
+            # A maximum in the plane stays in it.
+            around = np.pi / (ANGLES + 1) if abs(np.sin(theta)) * r > 1e-9 * radius else 0.0
         steps = np.arange(-about, about + 1) / about
         for _ in range(self.sampling.rounds + 1):
             radii = np.clip(r + across * steps, 0, self.reach * radius)
