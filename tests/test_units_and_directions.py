@@ -2,12 +2,18 @@
 
 import math
 import random
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from contact_scenes import PRESS, A, scene
 
 import radial
+import slipstick
+from contact_results.stress.below_contact import body_response
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
     Body,
@@ -112,3 +118,23 @@ def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way: Any, rigid: bool) 
     assert (stiff.iterations, stiff.residuals) == (soft.iterations, soft.residuals)
     for name, (_, of_stress) in OF.items():
         assert getattr(soft, name) == getattr(stiff, name) * unit**of_stress, name
+
+
+@pytest.mark.parametrize("solver", ["radial", "fem"])
+def test_a_largest_stress_is_found_in_whatever_plane_it_lies(solver: Any) -> None:
+    """Shear like cos 2θ, and the same turned by a right angle out of the plane of the load."""
+    state = state_of_result(slipstick.solve(scene(PRESS), solver), None)
+    pressure, radii = state.tractions["pressure"], state.axes["radii"][:, None] / A
+    angles = state.axes.get("angles", np.linspace(0, np.pi, 9))
+    pressure = pressure if pressure.ndim > 1 else np.repeat(pressure[:, None], len(angles), axis=1)
+    found = []
+    for sign in (-1, 1):
+        shear = sign * 0.5 * pressure * radii**2 * np.cos(2 * angles)
+        tractions = {"pressure": pressure, "shear_radial": shear}
+        turned = replace(state, tractions=tractions, axes={**state.axes, "angles": angles})
+        largest = extremes(body_response(turned).stress())
+        found.append(next(one for one in largest if one.measure == "max_principal"))
+    inside, beside = found
+    assert beside.value == pytest.approx(inside.value, rel=0.01)
+    assert abs(beside.y) == pytest.approx(abs(inside.x), rel=0.01)
+    assert abs(inside.y) < 1e-6 * A

@@ -14,7 +14,6 @@ import numpy as np
 
 from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.points import StressField, StressPoints
-from contact_results.surface import Rings
 from contact_scene.array_types import Field
 from contact_scene.machine import one_thread
 from contact_scene.quantities.stated_error import Part
@@ -71,10 +70,10 @@ class OnSection(BodyResponse):
             section = replace(section, displacement=np.full_like(section.displacement, np.nan))
         reach = NEAR * radius
         near = section.near(reach)
-        angles = state.axes.get("angles")
         others: list[StressPoints] = []
-        if angles is not None:
-            turns = 2 if isinstance(state.surface, Rings) and state.surface.covers_circle else 1
+        if any(part.motion.harmonic for part in field.parts):
+            # Without a mirror plane, the stress differs on the two halves of the circle.
+            turns = 2 if any(part.turned for part in field.parts) else 1
             close = np.max(np.abs(field.points), axis=0) <= reach
             for theta in pi * np.arange(1, turns * PLANES) / PLANES:
                 plane = _ray_points(field, theta).select(close)
