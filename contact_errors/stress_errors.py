@@ -205,7 +205,8 @@ def stress_errors(
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     for extreme in found:
-        largest, by_shear, unresolved = 0.0, 0.0, False
+        largest, by_shear = 0.0, 0.0
+        unresolved = False
         tension = extreme.measure == LARGEST_TENSION
         shallow = extreme.on_edge or (extreme.depth < near and abs(extreme.x) <= reach)
         for at_edge, values in here.items():

@@ -259,11 +259,6 @@ def loaded_bodies(
     scene = source.scene
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
-    by_increments, by_rings, by_map = None, None, None
-    if errors is not None:
-        by_increments = _relative_part(end, errors, "increments", OF_PRESSURE)
-        by_rings = _relative_part(end, errors, "quadrature", OF_PRESSURE)
-        by_map = _relative_part(end, errors, "map", OF_TRACTIONS)
     return LoadedBodies(
         title=scene.title,
         body=scene.body,
@@ -274,10 +269,10 @@ def loaded_bodies(
         discretisation=getattr(source, "discretisation", None),
         no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
-        by_increments=by_increments,
+        by_increments=_relative_part(end, errors, "increments", OF_PRESSURE),
         shear_error=shear_error,
-        by_rings=by_rings,
-        by_map=by_map,
+        by_rings=_relative_part(end, errors, "quadrature", OF_PRESSURE),
+        by_map=_relative_part(end, errors, "map", OF_TRACTIONS),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
         contact_radius=end.contact_radius,
@@ -288,7 +283,7 @@ def loaded_bodies(
 
 
 def _relative_part(
-    end: State, errors: Mapping[str, StatedError], part: Part, names: Sequence[str]
+    end: State, errors: Mapping[str, StatedError] | None, part: Part, names: Sequence[str]
 ) -> float | None:
     """Estimate the relative error of the tractions that is due to one cause, such as increments.
 
@@ -303,6 +298,8 @@ def _relative_part(
 
     Returns None if the error of any of them is unknown.
     """
+    if errors is None:
+        return None
     peak = errors.get("peak_pressure")
     of_pressure = "contact_radius" if peak is None or peak.error is None else "peak_pressure"
     approach = abs(end.approach or 0.0)
