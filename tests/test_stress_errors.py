@@ -1,5 +1,6 @@
 """Tests of the errors of stresses: they cover the true errors of largest stresses and of points."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,6 +21,7 @@ from error_scenes import cells, indented, size
 
 import slipstick as package
 from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
@@ -195,6 +197,16 @@ def test_the_shear_of_pressing_has_an_error_that_no_scalar_shows(solver: Any, sh
     assert abs(value - exact) < part < 0.5 * exact
     of_scalars = errors.steps[-1]["approach"].parts["increments"]
     assert of_scalars < 0.1 * part / exact * result.steps[-1].approach
+
+
+def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
+    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1)
+    state = state_of_result(package.solve(posed, "radial"), None)
+    field = body_response(state).stress([0.3 * A])
+    found = extremes(field)[:1]
+    (exact,) = stress_errors(replace(state, by_rings=0.0), field, found)
+    (rough,) = stress_errors(replace(state, by_rings=0.01), field, found)
+    assert size(rough) - size(exact) == pytest.approx(0.01 * found[0].value)
 
 
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
