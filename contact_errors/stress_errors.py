@@ -273,15 +273,22 @@ def _stated(
     size    size of this part [force/length^2]
     reason  reason why the error is unreliable, or None
     """
-    parts: dict[Part, Field] = {part: np.array([size])}
+    round_off = PRECISION * _largest_traction(state)
+    parts: dict[Part, Field] = {part: np.array([size + round_off])}
     causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
     parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
     if state.by_increments is None and is_sheared(state):
         reason = reason or NO_ERRORS
     elif not state.shear_measured:
         reason = reason or NOT_MEASURED
-    small = size <= LARGEST_SHARE * abs(value)
+    small = size <= LARGEST_SHARE * abs(value) or abs(value) <= round_off
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
+
+
+def _largest_traction(state: LoadedBodies) -> float:
+    """Return the largest finite traction [force/length^2]: a stress is a sum of such terms."""
+    sizes = np.concatenate([np.abs(one).ravel() for one in state.tractions.values()])
+    return float(np.max(sizes, where=np.isfinite(sizes), initial=0.0))
 
 
 def _reach_of_edge(state: LoadedBodies, near: float) -> float:
@@ -381,7 +388,7 @@ def _stress_errors_on_disc(
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += PRECISION * abs(e.value) + _between_levels(points, measures[e.measure], e)
+        size += _between_levels(points, measures[e.measure], e)
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
         errors.append(_stated(state, response.part, e.value, size, reason))
     return tuple(errors)

@@ -28,6 +28,7 @@ from contact_scene import (
     RIGID,
     Body,
     Cone,
+    Cylinder,
     Layer,
     LoadStep,
     RadialDiscretisation,
@@ -217,3 +218,12 @@ def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: in
     value, error = largest_tension(result)
     exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
     assert abs(value - exact) <= size(error) <= 0.01 * hertz().peak_pressure
+
+
+def test_a_bare_cylinder_that_is_pressed_has_no_tension_but_round_off() -> None:
+    """No principal stress below a pressed line contact of half-spaces is tensile."""
+    cylinder = Cylinder(radius=0.018, material=steel())
+    posed = scene({"normal_force": 1e6}, indenter=cylinder, body=steel(), friction=0.3)
+    value, error = largest_tension(package.solve(posed, "semi-analytical"))
+    assert abs(value) <= size(error) <= 1e-3  # [Pa]
+    assert error.status is ErrorStatus.ESTIMATED
