@@ -18,6 +18,8 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
   inside the edge the computed tensile stress is then too small by m^-½ of its true value.
 - At a fitted edge the error is at least 4.3 times the difference from another fit.
 - If an edge that is not fitted may have the largest tensile stress, the error has not converged.
+- A section of finite elements ends where the displacement is that of a half-space. A wider section
+  is compared, with the order 2, and 1 in plane strain.
 - Other stresses than the tensile stress are compared at the edge only if their maximum was found
   near the surface.
 """
@@ -81,6 +83,7 @@ UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 NOT_MEASURED = "no number of the run shows the error of the shear, which the stress has as well"
 COARSE = 2.0  # coarsening factor of the tractions
+WIDER = 4.0  # ratio of the sections of finite elements that are compared
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
@@ -198,20 +201,27 @@ def stress_errors(
     there = [
         _largest_by_place(coarse.stress(sampled), near, reach) for coarse in response.compared()
     ]
+    wider = response.on_wider_section(WIDER)
+    on_wider = wider and _largest_by_place(wider.stress(sampled), near, reach)
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
+        key = extreme.region, extreme.measure
+        by_section = 0.0
+        if on_wider:
+            apart = [abs(on_wider[at].get(key, 0.0) - there[0][at].get(key, 0.0)) for at in here]
+            by_section = max(apart) / (1 - WIDER ** (-BELIEVED * (1 if state.of_strips else 2)))
         tension = extreme.measure == LARGEST_TENSION
         shallow = extreme.on_edge or (extreme.depth < near and abs(extreme.x) <= reach)
         for at_edge, values in here.items():
-            value = values.get((extreme.region, extreme.measure))
+            value = values.get(key)
             if value is None or (at_edge and not (shallow or tension)):
                 continue
             order = SMOOTH if not at_edge else EDGE if fitted else ROOT
-            others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
+            others = [each[at_edge].get(key, 0.0) for each in there]
             spread = sqrt(np.mean([(value - other) ** 2 for other in others]))
             error = _error_per_spread(order) * spread
             if not shallow:
@@ -229,7 +239,7 @@ def stress_errors(
             (infinite and shallow and not tension, INFINITE),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        errors.append(_stated(state, part, extreme.value, largest, reason))
+        errors.append(_stated(state, part, extreme.value, largest, reason, by_section))
     return tuple(errors)
 
 
@@ -265,23 +275,32 @@ def _reference_maxima(
 
 
 def _stated(
-    state: LoadedBodies, part: Part, value: float, size: float, reason: str | None
+    state: LoadedBodies,
+    part: Part,
+    value: float,
+    size: float,
+    reason: str | None,
+    by_section: float = 0.0,
 ) -> StatedError:
     """Build the stated error of a stress, with the parts that the errors of the tractions cause.
 
     part    name of the part by the cells, elements or points
     size    size of this part [force/length^2]
     reason  reason why the error is unreliable, or None
+    by_section
+            error that the end of a section of finite elements causes [force/length^2]
     """
     round_off = PRECISION * _largest_traction(state)
     parts: dict[Part, Field] = {part: np.array([size + round_off])}
+    if by_section:
+        parts["section"] = np.array([by_section])
     causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
     parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
     if state.by_increments is None and is_sheared(state):
         reason = reason or NO_ERRORS
     elif not state.shear_measured:
         reason = reason or NOT_MEASURED
-    small = size <= LARGEST_SHARE * abs(value) or abs(value) <= round_off
+    small = size + by_section <= LARGEST_SHARE * abs(value) or abs(value) <= round_off
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
 

@@ -17,6 +17,7 @@ from contact_scenes import (
     steel,
 )
 from error_scenes import cells, indented, size
+from fem_scenes import elements
 
 import slipstick as package
 from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
@@ -32,6 +33,8 @@ from contact_scene import (
     Layer,
     LoadStep,
     RadialDiscretisation,
+    Strip,
+    SurfaceDiscretisation,
 )
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
@@ -227,3 +230,16 @@ def test_a_bare_cylinder_that_is_pressed_has_no_tension_but_round_off() -> None:
     value, error = largest_tension(package.solve(posed, "semi-analytical"))
     assert abs(value) <= size(error) <= 1e-3  # [Pa]
     assert error.status is ErrorStatus.ESTIMATED
+
+
+def test_the_error_of_a_stress_contains_that_of_a_small_section() -> None:
+    """A stiff layer below a line contact bends the more, the farther its section reaches."""
+    layer = Layer(thickness=2.5 * A, material=steel(young_modulus=8 * YOUNG))
+    body = Body(material=steel(), layers=(layer,))
+    strip = Strip(half_width=A, edge_radius=0.02, material=RIGID)
+    posed = scene({"normal_force": 2e5}, indenter=strip, body=body, friction=None)
+    on_strips = package.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=256))
+    exact, _ = largest_tension(on_strips)
+    value, error = largest_tension(package.solve(posed, "fem", elements(16, box=15.0)))
+    assert 0.1 * exact < abs(value - exact) <= size(error) < 0.3 * exact
+    assert error.parts["section"] > error.parts["elements"]

@@ -18,7 +18,7 @@ from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.weak_form import dilatation
 from fem_reference.mesh.element_order import ELEMENTS, lagrange_polynomials
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
-from fem_reference.mesh.section_outline import CONTACT_ZONE
+from fem_reference.mesh.section_outline import CONTACT_ZONE, sufficient_box
 from fem_reference.scales import Scales
 from fem_reference.stress.recovery import recovery_of
 from fem_reference.stress.section_field import SectionField
@@ -36,6 +36,7 @@ def subsurface(
     *,
     upper: bool = False,
     divided: bool = True,
+    widened: float = 1.0,
 ) -> SectionField:
     """Compute displacement and stress below the surface of one body under given tractions.
 
@@ -51,6 +52,8 @@ def subsurface(
         True for the indenter. The shear is then reversed, and z points up into the indenter.
     divided
         False for the mesh whose elements are not divided into 4, to estimate the error.
+    widened
+        Factor of the outer radius and the depth of the section, to estimate the error.
 
     Raises
     ------
@@ -69,7 +72,10 @@ def subsurface(
     scales = Scales(length, modulus)
     edges = tractions.edges / length
     zone = max(CONTACT_ZONE, tractions.reach / length)
-    mesh = _undivided_mesh(scales.dimensionless(body), discretisation, zone, plane=tractions.plane)
+    dimensionless = scales.dimensionless(body)
+    box = widened * (discretisation.box or sufficient_box(dimensionless, plane=tractions.plane))
+    wide = discretisation.model_copy(update={"box": box})
+    mesh = _undivided_mesh(dimensionless, wide, zone, plane=tractions.plane)
     section = (mesh.refined() if divided else mesh).refine_towards(edges)
     _refuse_incompressible(section)
     recovery = recovery_of(section)
