@@ -56,6 +56,7 @@ class OnSection(BodyResponse):
             rooted=state.no_root is None,
             edge=beyond_pressure(state.body, state.indenter),
             plane=state.of_strips,
+            normal_force=state.normal_force,
         )
         # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
         asked = asked.model_copy(update={"contact_radius": None})

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import groupby
-from math import ceil
+from math import ceil, pi
 
 import numpy as np
 
@@ -144,21 +144,22 @@ class _LoadPoints:
 def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[TractionAmplitude]:
-    """Compute amplitudes at the integration points with the normal load of the contact solve.
+    """Compute amplitudes at the integration points with the normal force of the contact solve.
 
-    The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
-    square root at the contact edge have a slightly larger load. All amplitudes are therefore
-    multiplied by the ratio of the loads.
+    The resultant of interpolated tractions differs from it: the tractions lack those between the
+    last Gauss point and a rim, and gain towards an edge where they are interpolated by a root. All
+    amplitudes are therefore multiplied by the ratio of the forces.
 
     length  unit of length of the mesh [length]
     """
-    radii, weight = points.radii * length, points.weighted.sum(axis=0)
-    found = tractions.amplitudes(radii)
-    if not tractions.edges.size:
+    found = tractions.amplitudes(points.radii * length)
+    if tractions.normal_force is None:
         return found
-    linear = replace(tractions, rooted=False).amplitudes(radii)
-    carried, load = (float(parts[0].values[-1] @ weight) for parts in (found, linear))
-    return [replace(part, values=part.values * (load / carried)) for part in found]
+    force = 2 * length * float(found[0].values[-1] @ points.weighted.sum(axis=0))
+    if not tractions.plane:
+        force *= pi * length
+    ratio = tractions.normal_force / force
+    return [replace(part, values=part.values * ratio) for part in found]
 
 
 def _create_load_points(
