@@ -18,6 +18,8 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
   inside the edge the computed tensile stress is then too small by m^-½ of its true value.
 - At a fitted edge the error is at least 4.3 times the difference from another fit.
 - If an edge that is not fitted may have the largest tensile stress, the error has not converged.
+- A section of finite elements ends where the displacement is that of a half-space. A wider section
+  is compared, with the order 2, and 1 in plane strain.
 - Other stresses than the tensile stress are compared at the edge only if their maximum was found
   near the surface.
 """
@@ -80,6 +82,7 @@ INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be in
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
+WIDER = 4.0  # ratio of the sections of finite elements that are compared
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
@@ -187,7 +190,7 @@ def stress_errors(
             # A largest stress that the reference lacks decays to zero outside.
             exact = known.get((extreme.region, extreme.measure), 0.0)
             size = abs(extreme.value - exact) + REFERENCE_PRECISION * abs(exact)
-            errors.append(_stated(pressing, part, extreme.value, (size, 0.0), None))
+            errors.append(_stated(pressing, extreme.value, {part: size}, None))
         return tuple(errors)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
@@ -200,17 +203,22 @@ def stress_errors(
     if state.shear_error:
         changed = compared[0].with_more_shear(state.shear_error)
         more = _largest_by_place(changed.stress(sampled), near, reach)
+    wider = response.on_wider_section(WIDER)
+    on_wider = wider and _largest_by_place(wider.stress(sampled), near, reach)
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     for extreme in found:
-        largest, by_shear = 0.0, 0.0
+        largest, by_shear, by_section = 0.0, 0.0, 0.0
         unresolved = False
+        key = extreme.region, extreme.measure
+        if on_wider:
+            apart = [abs(on_wider[at].get(key, 0.0) - there[0][at].get(key, 0.0)) for at in here]
+            by_section = max(apart) / (1 - WIDER ** (-BELIEVED * (1 if state.of_strips else 2)))
         tension = extreme.measure == LARGEST_TENSION
         shallow = extreme.on_edge or (extreme.depth < near and abs(extreme.x) <= reach)
         for at_edge, values in here.items():
-            key = extreme.region, extreme.measure
             value = values.get(key)
             if value is None or (at_edge and not (shallow or tension)):
                 continue
@@ -235,7 +243,8 @@ def stress_errors(
             (infinite and shallow and not tension, INFINITE),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        errors.append(_stated(state, part, extreme.value, (largest, by_shear), reason))
+        sizes: dict[Part, float] = {part: largest, "increments": by_shear, "section": by_section}
+        errors.append(_stated(state, extreme.value, sizes, reason))
     return tuple(errors)
 
 
@@ -272,28 +281,33 @@ def _reference_maxima(
 
 def _stated(
     state: LoadedBodies,
-    part: Part,
     value: float,
-    sizes: tuple[float, float],
+    sizes: Mapping[Part, float],
     reason: str | None,
 ) -> StatedError:
     """Build the stated error of a stress, with the parts that the errors of the tractions cause.
 
-    part    name of the part by the cells, elements or points
-    sizes   this part, and the change by the error of the shear [force/length^2]
+    sizes   parts of the error: the first by cells, elements or points, others by the error of the
+            shear and by the end of a section of finite elements [force/length^2]
     reason  reason why the error is unreliable, or None
     """
-    size, by_shear = sizes
-    causes: dict[Part, float] = {
-        "increments": (state.by_increments or 0.0) * abs(value) + by_shear,
-        "map": (state.by_map or 0.0) * abs(value),
-    }
-    parts: dict[Part, Field] = {part: np.array([size])}
-    parts |= {cause: np.array([of_cause]) for cause, of_cause in causes.items() if of_cause}
+    parts = dict(sizes)
+    round_off = PRECISION * _largest_traction(state)
+    parts[next(iter(sizes))] += round_off
+    shares: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
+    for cause, share in shares.items():
+        parts[cause] = parts.get(cause, 0.0) + (share or 0.0) * abs(value)
     if None in (state.by_increments, state.shear_error) and is_sheared(state):
         reason = reason or NO_ERRORS
-    small = size + sum(causes.values()) <= LARGEST_SHARE * abs(value)
-    return build_stated_error(parts, reason or (None if small else TOO_LARGE))
+    small = sum(parts.values()) <= LARGEST_SHARE * abs(value) or abs(value) <= round_off
+    known = {cause: np.array([size]) for cause, size in parts.items() if size}
+    return build_stated_error(known, reason or (None if small else TOO_LARGE))
+
+
+def _largest_traction(state: LoadedBodies) -> float:
+    """Return the largest finite traction [force/length^2]: a stress is a sum of such terms."""
+    sizes = np.concatenate([np.abs(one).ravel() for one in state.tractions.values()])
+    return float(np.max(sizes, where=np.isfinite(sizes), initial=0.0))
 
 
 def _reach_of_edge(state: LoadedBodies, near: float) -> float:
@@ -396,10 +410,9 @@ def _stress_errors_on_disc(
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += (PRECISION + by_rings) * abs(e.value) + _between_levels(
-            points, measures[e.measure], e
-        )
+        size += by_rings * abs(e.value) + _between_levels(points, measures[e.measure], e)
         by_shear = abs(more[e.measure][k] - again[e.measure][k])
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
-        errors.append(_stated(state, response.part, e.value, (size, by_shear), reason))
+        sizes = {response.part: size, "increments": by_shear}
+        errors.append(_stated(state, e.value, sizes, reason))
     return tuple(errors)

@@ -162,7 +162,7 @@ class ElementSolver(DiscretisedSolver):
         count = max(FEWEST_ELEMENTS, ceil(share * mesh.elements_per_radius)) + more
         if (share, more) == SHARES[1][1:]:
             # The edge of the contact lies in the middle of an element.
-            largest = max(increment.contact_radius for increment in result.increments)
+            largest = max(increment.edge_radius for increment in result.increments)
             radius = largest * count / (count + 0.5)
         return change_settings(mesh, elements_per_radius=count, contact_radius=radius)
 

@@ -179,9 +179,9 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
         except ContactAtZoneEdge:
             radius *= GROWTH
             continue
-        if pressed.contact_radius >= TOO_SMALL * radius:
-            return pressed.contact_radius
-        radius = max(pressed.contact_radius, radius / 4)
+        if pressed.edge_radius >= TOO_SMALL * radius:
+            return pressed.edge_radius
+        radius = max(pressed.edge_radius, radius / 4)
     return radius
 
 

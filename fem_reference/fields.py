@@ -38,11 +38,14 @@ class Increment(RingIncrement):
     iterations      number of linear iterations of the contact algorithm
     path            name of the algorithm that solved the coupled normal and tangential problems;
                     None if these problems are not coupled
+    edge_radius     radius of the circle of the area inside the outer contact edge [length], which
+                    exceeds `contact_radius` if the surfaces separate within the contact
     """
 
     factorizations: int = 0
     sweeps: int = 1
     path: str | None = None
+    edge_radius: float = 0.0
 
 
 @dataclass(frozen=True, repr=False)

@@ -100,7 +100,7 @@ def solve(
             enlargements += 1
             radius *= GROWTH
         else:
-            reached = max(increment.contact_radius for increment in increments)
+            reached = max(increment.edge_radius for increment in increments)
             # A contact that reached the end of a smaller zone of fine elements extends beyond
             # `reached`, the radius of a circle of its area.
             if enlargements or not 0 < TOO_LARGE * reached < radius:

@@ -15,12 +15,16 @@ from contact_scenes import (
 )
 from fem_scenes import elements, end
 
+import slipstick
 from contact_scene import (
+    RIGID,
     Body,
+    FlatPunch,
     IsotropicMaterial,
     Layer,
     Paraboloid,
     Scene,
+    SurfaceDiscretisation,
 )
 from contact_scene.quantities.summary import ContactStatus
 from fem_reference import Increment, Method, Path, Result, plan, solve
@@ -49,6 +53,23 @@ def on_film(ratio: float, thickness: float) -> Scene:
     film = Layer(thickness=thickness * A, material=steel(young_modulus=ratio * YOUNG))
     coated = Body(material=steel(), layers=(film,))
     return scene(PRESS, friction=None, indenter=RIGID_BALL, body=coated)
+
+
+@pytest.mark.parametrize("method", Method)
+def test_a_punch_that_a_stiff_coating_leaves_between_middle_and_rim_touches_less(
+    method: Method,
+) -> None:
+    """The coating bends below the punch: a disc and a ring at the rim touch, as on cells."""
+    film = Layer(thickness=0.275 * A, material=steel(0.45, 18 * YOUNG))
+    punch = FlatPunch(radius=A, material=RIGID)
+    body = Body(material=steel(0.49), layers=(film,))
+    asked = scene(PRESS, friction=None, indenter=punch, body=body)
+    found = solve(asked, elements(32), method)
+    assert found.radius == A
+    on_cells = slipstick.solve(asked, "semi-analytical", SurfaceDiscretisation(cells=(96, 96)))
+    exact = on_cells.steps[-1].contact_radius
+    assert found.increments[-1].contact_radius == pytest.approx(exact, rel=0.05)
+    assert exact < 0.6 * A
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,27 @@
 """Tests of the stress by finite elements: surface, interfaces, the indenter, and refusals."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from fem_scenes import elements
 
-from contact_scene import Body, IsotropicMaterial, Layer
+import slipstick
+from contact_errors.stress_errors import largest_stresses
+from contact_results.stress.below_contact import body_response
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_scene import (
+    RIGID,
+    Body,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    RevolvedProfile,
+    Scene,
+    SurfaceDiscretisation,
+)
 from fem_reference.mesh.section_mesh import section_mesh
 from fem_reference.stress import SectionField, SurfaceTractions, subsurface
 from fem_reference.stress.recovery import recovery_of
@@ -25,6 +40,46 @@ PRESSED = SurfaceTractions(RINGS, PRESSURE)
 OUTWARD = replace(PRESSED, shear_radial=MU * PRESSURE * RINGS / A)
 AROUND = replace(PRESSED, shear_circumferential=MU * PRESSURE * RINGS / A)
 ALONG = replace(PRESSED, shear_along_load=MU * PRESSURE)
+
+
+@pytest.mark.parametrize("solver", ["fem", "fem-complementarity"])
+def test_the_stress_on_the_axis_of_a_flat_punch_is_that_of_its_force(solver: Any) -> None:
+    """Sneddon (1946): σ_zz = -p_m/2 (1 + 3ζ²)/(1 + ζ²)², with ζ = z/a and the mean pressure p_m.
+    The last Gauss point lies inside the rim, where the pressure is infinite."""
+    force = 1e3
+    posed = Scene(
+        indenter=FlatPunch(radius=A, material=RIGID),
+        body=Body(material=STEEL),
+        loading=(LoadStep(normal_force=force),),
+    )
+    result = slipstick.solve(posed, solver, elements(16))
+    axis = body_response(state_of_result(result, None)).stress().axis
+    deep = axis.depth > 2 * A
+    square = (axis.depth[deep] / A) ** 2
+    exact = -force / (2 * np.pi * A**2) * (1 + 3 * square) / (1 + square) ** 2
+    assert axis.stress[2, deep] == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("solver", ["fem", "fem-complementarity"])
+def test_stress_below_a_contact_with_a_hole_has_no_pressure_there(solver: Any) -> None:
+    """A flat tip on a stiff film of a soft body bears on a ring."""
+    r = np.linspace(0.0, 2.5 * A, 401)
+    tip = RevolvedProfile(file=np.stack([r, 3e-3 * A * (r / A) ** 6], axis=1), material=RIGID)
+    stiff = IsotropicMaterial(young_modulus=4e12, poisson_ratio=0.3)
+    film = Layer(thickness=0.3 * A, material=stiff)
+    posed = Scene(
+        indenter=tip,
+        body=Body(material=STEEL, layers=(film,)),
+        loading=(LoadStep(normal_force=1e3),),
+    )
+    names = ["max_principal@layer 1", "von_mises@layer 1", "von_mises@base"]
+    cells = slipstick.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=(96, 96)))
+    exact = largest_stresses(cells, None, names)
+    found = largest_stresses(slipstick.solve(posed, solver, elements(32)), None, names)
+    assert cells.steps[-1].pressure[48, 48] == 0.0
+    assert {name: value for name, (value, _) in found.items()} == {
+        name: pytest.approx(value, rel=0.02) for name, (value, _) in exact.items()
+    }
 
 
 @pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])

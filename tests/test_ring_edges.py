@@ -14,8 +14,10 @@ from contact_solver.dense_inverse import inverse_on
 from contact_solver.pressure import PressureProblem, solve_pressure
 from fem_reference.compliance.gauss_points import loading_part
 from fem_reference.compliance.ring_edge import (
+    Edge,
     GaussEdge,
     HatEdge,
+    area_of_holes,
     beyond_pressure,
     stick_area,
 )
@@ -102,6 +104,26 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
         radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact, HatEdge()
     )
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)
+
+
+@pytest.mark.parametrize("edge", [HatEdge(), GaussEdge(1.0)])
+@pytest.mark.parametrize("inner", [0.0, 12.4])
+def test_a_hole_in_the_contact_is_no_part_of_contact_and_stick(edge: Edge, inner: float) -> None:
+    """A disc, and a ring around it. The pressure of a single Gauss point is not determined."""
+    hole, outer = 30.3, 50.6
+    gauss = isinstance(edge, GaussEdge)
+    points = np.array([-0.387, 0.0, 0.387]) if gauss else np.zeros(1)
+    radii = (np.arange(60.0)[:, None] + 0.5 * gauss + points).ravel()
+    disc = np.maximum(inner**2 - radii**2, 0)
+    p = np.sqrt(disc + np.maximum((outer**2 - radii**2) * (radii**2 - hole**2) / outer**2, 0))
+    if gauss:
+        p[120] = 0.0
+    assert area_of_holes(radii, p, edge, plane=False) == pytest.approx(
+        pi * (hole**2 - inner**2), rel=0.02
+    )
+    nothing = np.zeros(len(p), bool)
+    sticks = stick_area(radii, p, np.zeros((1, len(p))), nothing, outer, edge)
+    assert sticks == pytest.approx(pi * (outer**2 - hole**2 + inner**2), rel=0.02)
 
 
 @pytest.mark.parametrize("excess", [0.0, 1e-9])

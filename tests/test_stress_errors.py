@@ -18,6 +18,7 @@ from contact_scenes import (
     steel,
 )
 from error_scenes import cells, indented, size
+from fem_scenes import elements
 
 import slipstick as package
 from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
@@ -29,9 +30,12 @@ from contact_scene import (
     RIGID,
     Body,
     Cone,
+    Cylinder,
     Layer,
     LoadStep,
     RadialDiscretisation,
+    Strip,
+    SurfaceDiscretisation,
 )
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
@@ -228,3 +232,25 @@ def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: in
     value, error = largest_tension(result)
     exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
     assert abs(value - exact) <= size(error) <= 0.01 * hertz().peak_pressure
+
+
+def test_a_bare_cylinder_that_is_pressed_has_no_tension_but_round_off() -> None:
+    """No principal stress below a pressed line contact of half-spaces is tensile."""
+    cylinder = Cylinder(radius=0.018, material=steel())
+    posed = scene({"normal_force": 1e6}, indenter=cylinder, body=steel(), friction=0.3)
+    value, error = largest_tension(package.solve(posed, "semi-analytical"))
+    assert abs(value) <= size(error) <= 1e-3  # [Pa]
+    assert error.status is ErrorStatus.ESTIMATED
+
+
+def test_the_error_of_a_stress_contains_that_of_a_small_section() -> None:
+    """A stiff layer below a line contact bends the more, the farther its section reaches."""
+    layer = Layer(thickness=2.5 * A, material=steel(young_modulus=8 * YOUNG))
+    body = Body(material=steel(), layers=(layer,))
+    strip = Strip(half_width=A, edge_radius=0.02, material=RIGID)
+    posed = scene({"normal_force": 2e5}, indenter=strip, body=body, friction=None)
+    on_strips = package.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=256))
+    exact, _ = largest_tension(on_strips)
+    value, error = largest_tension(package.solve(posed, "fem", elements(16, box=15.0)))
+    assert 0.1 * exact < abs(value - exact) <= size(error) < 0.3 * exact
+    assert error.parts["section"] > error.parts["elements"]

@@ -84,6 +84,13 @@ class BodyResponse(ABC):
         }
         return replace(self, state=replace(self.state, tractions=tractions))
 
+    def on_wider_section(self, factor: float) -> BodyResponse | None:
+        """Return the first of the compared responses on a wider section; None without a section.
+
+        factor  ratio of the outer radii of the sections
+        """
+        return None
+
     @abstractmethod
     def drawn_stress(self) -> StressField | None:
         """Compute the stress that the overview of a run shows; None if it would take too long."""

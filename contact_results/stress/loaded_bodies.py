@@ -73,6 +73,7 @@ class LoadedBodies:
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
                     pressure at every radius; None if the pressure is known on cells or rings only
+    normal_force    [force], per length of a line contact; None if unknown
     contact_radius  [length]; None if unknown
     peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
@@ -94,6 +95,7 @@ class LoadedBodies:
     by_map: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
+    normal_force: float | None = None
     contact_radius: float | None = None
     peak_pressure: float | None = None
     strain: Strain | None = None
@@ -275,6 +277,7 @@ def loaded_bodies(
         by_map=_relative_part(end, errors, "map", OF_TRACTIONS),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
+        normal_force=end.normal_force,
         contact_radius=end.contact_radius,
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),

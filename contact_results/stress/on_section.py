@@ -35,10 +35,12 @@ class OnSection(BodyResponse):
     """One body below tractions on rings, by finite elements on its section.
 
     divided  False for elements of twice the size everywhere, also far from the contact
+    widened  factor of the outer radius and the depth of the section
     """
 
     part: ClassVar[Part] = "elements"
     divided: bool = True
+    widened: float = 1.0
 
     @one_thread()
     def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:
@@ -60,10 +62,18 @@ class OnSection(BodyResponse):
             rooted=state.no_root is None,
             edge=beyond_pressure(state.body, state.indenter),
             plane=state.of_strips,
+            normal_force=state.normal_force,
         )
         # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
         asked = asked.model_copy(update={"contact_radius": None})
-        field = subsurface(self.body, tractions, asked, upper=self.indenter, divided=self.divided)
+        field = subsurface(
+            self.body,
+            tractions,
+            asked,
+            upper=self.indenter,
+            divided=self.divided,
+            widened=self.widened,
+        )
         radius = tractions.loaded_radius
         section = state.add_bulk_stress(_section_points(field), self.indenter)
         if state.of_strips:  # the displacement below a line contact is not stated
@@ -109,6 +119,9 @@ class OnSection(BodyResponse):
 
     def compared(self) -> Sequence[OnSection]:
         return [self.on_larger_elements(every) for every in (1, 2)]
+
+    def on_wider_section(self, factor: float) -> OnSection:
+        return replace(self.on_larger_elements(), widened=factor)
 
     def on_larger_elements(self, every: int = 1) -> OnSection:
         """Return the response with elements of twice the size and fewer traction rings.

@@ -21,6 +21,7 @@ The part of the values that loads no node is removed before. The error of the ra
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan, pi, sqrt
 from typing import Protocol
 
@@ -85,6 +86,13 @@ class Edge(Protocol):
     """
 
     @property
+    def narrowest_hole(self) -> int:
+        """Least number of adjacent rings without pressure that form a hole in the contact.
+
+        The displacements of an element do not determine the pressure of each of its Gauss points.
+        """
+
+    @property
     def stick_rule(self) -> "Edge":
         """Rule that locates the edge of the stick zone, for use with this rule of the contact edge.
 
@@ -121,6 +129,11 @@ class HatEdge:
     """
 
     beyond: Beyond = BEYOND
+
+    @property
+    def narrowest_hole(self) -> int:
+        """Least number of adjacent nodes without pressure that form a hole in the contact."""
+        return 1
 
     @property
     def stick_rule(self) -> "HatEdge":
@@ -178,6 +191,11 @@ class GaussEdge:
     element: float
     whole_elements: bool = True
     power: int = 1
+
+    @property
+    def narrowest_hole(self) -> int:
+        """Least number of adjacent Gauss points without pressure that form a hole: an element."""
+        return POINTS_PER_EDGE
 
     @property
     def stick_rule(self) -> "GaussEdge":
@@ -262,6 +280,35 @@ def area_within(radius: float, *, plane: bool) -> float:
     return 2 * radius if plane else pi * radius**2
 
 
+def holes(pressure: Field, edge: Edge) -> list[tuple[int, int]]:
+    """Find the parts inside the contact edge in which the surfaces are separated.
+
+    A stiff coating below a flat punch bends away from it between its middle and its rim.
+
+    pressure  pressure at the rings (n,), not negative
+    edge      rule for the radius between two rings
+    returns   first ring of every hole, and first ring with pressure beyond the hole
+    """
+    carrying = [-1, *np.flatnonzero(pressure > 0).tolist()]
+    return [(at + 1, after) for at, after in pairwise(carrying) if after - at > edge.narrowest_hole]
+
+
+def area_of_holes(radii: Field, pressure: Field, edge: Edge, *, plane: bool) -> float:
+    """Compute the area inside the contact edge in which the surfaces are separated [length^2].
+
+    radii     radii of the rings (n,) [length]
+    pressure  pressure at the rings (n,), not negative
+    edge      rule for the radius between two rings
+    plane     True in plane strain, in which the area is a width [length]
+    """
+    area = 0.0
+    for first, after in holes(pressure, edge):
+        inner = edge.radius(radii, pressure, first - 1) if first else 0.0
+        outer = max(inner, edge.radius(radii, pressure, after, -1))
+        area += area_within(outer, plane=plane) - area_within(inner, plane=plane)
+    return area
+
+
 def stick_area(
     radii: Field,
     bound: Field,
@@ -288,6 +335,8 @@ def stick_area(
         return 0.0
     last = int(np.flatnonzero(bound > 0)[-1])
     stuck = ~slips[: last + 1]
+    for first, after in holes(bound, edge):
+        stuck[first:after] = False
     if bound[0] == 0:
         stuck[0] = stuck[1]
     at_stick = edge.stick_rule

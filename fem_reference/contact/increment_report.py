@@ -1,5 +1,6 @@
 """Conversion of a contact state at the points of the surface to an increment of the result."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import hypot, pi, sqrt
 from typing import Any, TypeVar
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.stepping.load_stepping import IncrementPosition
-from fem_reference.compliance.ring_edge import area_within, stick_area
+from fem_reference.compliance.ring_edge import area_of_holes, area_within, stick_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.fields import Increment
@@ -50,7 +51,8 @@ def report_increment(
         gap=_result_field(contact, gap),
         normal_force=state.normal_force,
         approach=state.approach,
-        contact_radius=_radius_of(contact, _contact_area(contact, edges)),
+        contact_radius=_radius_of(contact, _contact_area(contact, state, edges)),
+        edge_radius=_radius_of(contact, _area_within_edges(contact, edges)),
         peak_pressure=float(np.max(p)),
         elastic_energy=_elastic_energy(contact, state),
         residuals=state.residuals,
@@ -143,11 +145,24 @@ def _contact_edges(contact: PointContact, state: PointState) -> Field:
     return np.array([contact.rings.contact_edge(*ray) for ray in zip(p.T, outward.T, strict=True)])
 
 
-def _contact_area(contact: PointContact, edges: Field) -> float:
+def _contact_area(contact: PointContact, state: PointState, edges: Field) -> float:
+    """Compute the contact area [length^2], a width in plane strain: that inside the edge radii of
+    all rays, without the holes."""
+    rings, rays = contact.rings, contact.compliance.scalar_on_grid(state.pressure).T
+    parts = [area_of_holes(rings.radii, ray, rings.edge, plane=rings.plane) for ray in rays]
+    return _area_within_edges(contact, edges) - _mean_over_rays(contact, parts)
+
+
+def _area_within_edges(contact: PointContact, edges: Field) -> float:
     """Compute ½∫a² dθ with the edge radius a of every ray [length^2]; 2a in plane strain."""
-    parts = [area_within(edge, plane=contact.rings.plane) for edge in edges]
+    return _mean_over_rays(
+        contact, [area_within(edge, plane=contact.rings.plane) for edge in edges]
+    )
+
+
+def _mean_over_rays(contact: PointContact, values: Sequence[float]) -> float:
     weights = contact.compliance.grid.weights
-    return float(np.sum(weights * parts) / np.sum(weights))
+    return float(np.sum(weights * values) / np.sum(weights))
 
 
 def _radius_of(contact: PointContact, area: float) -> float:
@@ -163,7 +178,7 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
     if state.motions is None:
         # At the friction limit the shear may differ from it by round-off, which is no stick zone.
         return 0.0
-    contact_area = _contact_area(contact, edges)
+    contact_area = _contact_area(contact, state, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area
     compliance, rings = contact.compliance, contact.rings
@@ -178,5 +193,4 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
         strict=True,
     )
     areas = [stick_area(rings.radii, *ray, rings.edge, plane=rings.plane) for ray in rays]
-    weights = compliance.grid.weights
-    return min(float(np.sum(weights * areas) / np.sum(weights)), contact_area)
+    return min(_mean_over_rays(contact, areas), contact_area)

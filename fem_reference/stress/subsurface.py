@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import groupby
-from math import ceil
+from math import ceil, pi
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.weak_form import dilatation
 from fem_reference.mesh.element_order import ELEMENTS, lagrange_polynomials
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
-from fem_reference.mesh.section_outline import CONTACT_ZONE
+from fem_reference.mesh.section_outline import CONTACT_ZONE, sufficient_box
 from fem_reference.scales import Scales
 from fem_reference.stress.recovery import recovery_of
 from fem_reference.stress.section_field import SectionField
@@ -36,6 +36,7 @@ def subsurface(
     *,
     upper: bool = False,
     divided: bool = True,
+    widened: float = 1.0,
 ) -> SectionField:
     """Compute displacement and stress below the surface of one body under given tractions.
 
@@ -51,6 +52,8 @@ def subsurface(
         True for the indenter. The shear is then reversed, and z points up into the indenter.
     divided
         False for the mesh whose elements are not divided into 4, to estimate the error.
+    widened
+        Factor of the outer radius and the depth of the section, to estimate the error.
 
     Raises
     ------
@@ -69,7 +72,10 @@ def subsurface(
     scales = Scales(length, modulus)
     edges = tractions.edges / length
     zone = max(CONTACT_ZONE, tractions.reach / length)
-    mesh = _undivided_mesh(scales.dimensionless(body), discretisation, zone, plane=tractions.plane)
+    dimensionless = scales.dimensionless(body)
+    box = widened * (discretisation.box or sufficient_box(dimensionless, plane=tractions.plane))
+    wide = discretisation.model_copy(update={"box": box})
+    mesh = _undivided_mesh(dimensionless, wide, zone, plane=tractions.plane)
     section = (mesh.refined() if divided else mesh).refine_towards(edges)
     _refuse_incompressible(section)
     recovery = recovery_of(section)
@@ -138,21 +144,22 @@ class _LoadPoints:
 def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[TractionAmplitude]:
-    """Compute amplitudes at the integration points with the normal load of the contact solve.
+    """Compute amplitudes at the integration points with the normal force of the contact solve.
 
-    The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
-    square root at the contact edge have a slightly larger load. All amplitudes are therefore
-    multiplied by the ratio of the loads.
+    The resultant of interpolated tractions differs from it: the tractions lack those between the
+    last Gauss point and a rim, and gain towards an edge where they are interpolated by a root. All
+    amplitudes are therefore multiplied by the ratio of the forces.
 
     length  unit of length of the mesh [length]
     """
-    radii, weight = points.radii * length, points.weighted.sum(axis=0)
-    found = tractions.amplitudes(radii)
-    if not tractions.edges.size:
+    found = tractions.amplitudes(points.radii * length)
+    if tractions.normal_force is None:
         return found
-    linear = replace(tractions, rooted=False).amplitudes(radii)
-    carried, load = (float(parts[0].values[-1] @ weight) for parts in (found, linear))
-    return [replace(part, values=part.values * (load / carried)) for part in found]
+    force = 2 * length * float(found[0].values[-1] @ points.weighted.sum(axis=0))
+    if not tractions.plane:
+        force *= pi * length
+    ratio = tractions.normal_force / force
+    return [replace(part, values=part.values * ratio) for part in found]
 
 
 def _create_load_points(

@@ -25,6 +25,7 @@ from fem_reference.compliance.ring_edge import (
     GaussEdge,
     HatEdge,
     contact_edge,
+    holes,
 )
 from fem_reference.elasticity.motion import (
     LINE_PRESSING,
@@ -84,6 +85,9 @@ class SurfaceTractions:
     edge      coefficients of the polynomial from the ratio of the last two pressures to the
               distance of the edge from the last ring with pressure, in elements
     plane     True for a line contact, with equal tractions at x and -x
+    normal_force
+              resultant of the pressure [force], per length of a line contact; None for that of the
+              interpolated pressure
     """
 
     radii: Field
@@ -95,6 +99,7 @@ class SurfaceTractions:
     rooted: bool = False
     edge: Beyond = BEYOND
     plane: bool = False
+    normal_force: float | None = None
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
@@ -140,10 +145,13 @@ class SurfaceTractions:
         """Radii of the contact edge at θ = 0 and θ = π [length].
 
         The angle is counted from the direction of the load. The two radii are equal for an
-        axisymmetric pressure. The array is empty if the tractions are not `rooted` or if too few
-        rings carry pressure. Used to refine the mesh for the stress.
+        axisymmetric pressure. The array is empty if the tractions are not `rooted`, if too few
+        rings carry pressure, or if the surfaces separate within the contact, where a root that ends
+        at the outer edge does not describe the pressure. Used to refine the mesh for the stress.
         """
         if not self.rooted or self._least_element_count < FEWEST_RINGS:
+            return np.empty(0)
+        if any(holes(ray, self._edge_rule) for ray in self._ray_pressures.T):
             return np.empty(0)
         if self.angles is None:
             return np.repeat(self._edge_radii, 2)
@@ -205,14 +213,19 @@ class SurfaceTractions:
         and POINTS_PER_EDGE for Gauss points, which have none."""
         return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
 
+    @property
+    def _edge_rule(self) -> Edge:
+        """Rule that locates the contact edge between the rings."""
+        if self._per_element == 1:
+            return HatEdge(self.edge)
+        element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])
+        # The rings end beyond the edge, and may be every second one.
+        return GaussEdge(element, whole_elements=False, power=0 if self.plane else 1)
+
     @cached_property
     def _edge_radii(self) -> Field:
         """Radius of the contact edge, resolved between rings, on every ray (angles,) [length]."""
-        edge: Edge = HatEdge(self.edge)
-        if self._per_element > 1:
-            element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])
-            # The rings end beyond the edge, and may be every second one.
-            edge = GaussEdge(element, whole_elements=False, power=0 if self.plane else 1)
+        edge = self._edge_rule
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
