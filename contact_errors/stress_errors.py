@@ -80,9 +80,14 @@ NEAR = 2.0
 AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
+THIN = "a layer is thinner than two elements of the contact"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
 WIDER = 4.0  # ratio of the sections of finite elements that are compared
+# Least thickness of a layer in elements of the contact. Tractions of elements err at the edge by
+# half an element. Below a stiff film of 1.5 elements the tension errs by 17 %, three times its
+# stated error, and that of 2.2 elements by 6 %, within it.
+THICKNESS = 2.0
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
@@ -209,6 +214,7 @@ def stress_errors(
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
+    thin = _has_thin_layer(response)
     for extreme in found:
         largest, by_shear, by_section = 0.0, 0.0, 0.0
         unresolved = False
@@ -241,6 +247,7 @@ def stress_errors(
             (extreme.at_window_edge, AT_WINDOW_EDGE),
             (unresolved, UNRESOLVED),
             (infinite and shallow and not tension, INFINITE),
+            (thin, THIN),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
         sizes: dict[Part, float] = {part: largest, "increments": by_shear, "section": by_section}
@@ -302,6 +309,15 @@ def _stated(
     small = sum(parts.values()) <= LARGEST_SHARE * abs(value) or abs(value) <= round_off
     known = {cause: np.array([size]) for cause, size in parts.items() if size}
     return build_stated_error(known, reason or (None if small else TOO_LARGE))
+
+
+def _has_thin_layer(response: BodyResponse) -> bool:
+    """Return True if the elements of a contact do not resolve a layer of the body."""
+    asked, radius = response.state.discretisation, response.state.contact_radius
+    if asked is None or radius is None:
+        return False
+    least = THICKNESS * radius / asked.elements_per_radius
+    return any(layer.thickness < least for layer in response.body.layers)
 
 
 def _largest_traction(state: LoadedBodies) -> float:

@@ -21,7 +21,7 @@ from error_scenes import cells, indented, size
 from fem_scenes import elements
 
 import slipstick as package
-from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
+from contact_errors.stress_errors import THIN, largest_stresses, stress_at, stress_errors
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import OnCells
@@ -31,6 +31,7 @@ from contact_scene import (
     Body,
     Cone,
     Cylinder,
+    FiniteElementDiscretisation,
     Layer,
     LoadStep,
     RadialDiscretisation,
@@ -201,6 +202,19 @@ def test_the_shear_of_pressing_has_an_error_that_no_scalar_shows(solver: Any, sh
     assert abs(value - exact) < part < 0.5 * exact
     of_scalars = errors.steps[-1]["approach"].parts["increments"]
     assert of_scalars < 0.1 * part / exact * result.steps[-1].approach
+
+
+@pytest.mark.parametrize(("elements", "resolved"), [(1.9, False), (2.2, True)])
+def test_elements_that_do_not_resolve_a_film_leave_its_stress_open(
+    elements: float, resolved: bool
+) -> None:
+    film = Layer(thickness=elements / 16 * A, material=steel(0.3, 400e9))
+    asked = FiniteElementDiscretisation(elements_per_radius=16)
+    result = package.solve(indented(0.018, 1e3, film, steel(0.3, 210e9), 0.1), "fem", asked)
+    state = state_of_result(result, None, stated_errors(result))
+    field = body_response(state).stress()
+    errors = stress_errors(state, field, extremes(field))
+    assert any(error.reason == THIN for error in errors) != resolved
 
 
 def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
