@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 from hypothesis import given
@@ -17,6 +18,7 @@ import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
+from contact_results.stress.files import SECTION, write_files
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.stress_maxima import extremes
@@ -165,16 +167,30 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
     assert_allclose(upper["zz"], lower["zz"])
 
 
-@pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0), (-1.0, 0.0)])
-def test_a_stress_turns_as_a_tensor(
-    direction: tuple[float, float], rng: np.random.Generator
+@pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0)])
+def test_stress_at_points_and_in_files_turns_with_the_load(
+    direction: tuple[float, float], rng: np.random.Generator, tmp_path: Path
 ) -> None:
-    axis = OnDisc(state_of_result(radial.solve(scene_of(BARE)), None)).stress([0.3]).axis
-    points = replace(axis, stress=rng.normal(size=axis.stress.shape))
+    """A vector turns by a rotation, a stress by one on each of its indices."""
     c, s = direction
     turn, voigt = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
-    expected = np.einsum("ia,jb,abn->ijn", turn, turn, points.stress[voigt])
-    assert_allclose(points.rotate_to_scene(direction).stress[voigt], expected, atol=1e-14)
+    states = [state_of_result(radial.solve(scene), None) for scene in (pushed(), pushed(direction))]
+    places, levels = rng.uniform(-1.5, 1.5, (2, 9)), [Level(0.3, 0)] * 9
+    one, other = (
+        OnDisc(state).stress_at(*at, levels)
+        for state, at in zip(states, (places, turn[:2, :2] @ places), strict=True)
+    )
+    expected = np.einsum("ia,jb,abn->ijn", turn, turn, one.stress[voigt])
+    assert_allclose(other.stress[voigt], expected, atol=1e-9)
+    assert_allclose(other.displacement, turn @ one.displacement, atol=1e-9)
+    field = OnDisc(states[1]).stress([0.2, 0.4])
+    write_files(states[1], "body", field, extremes(field), tmp_path, None, None)
+    section = meshio.read(tmp_path / SECTION)
+    some = slice(None, None, 29)
+    x, y, depth = section.points[some].T
+    at_nodes = OnDisc(states[1]).stress_at(x, y, [Level(float(z), 0) for z in depth])
+    tensors = section.point_data["stress [Pa]"][some].T
+    assert_allclose(tensors.reshape(3, 3, -1), at_nodes.stress[voigt], atol=1e-6)
 
 
 TWISTED = frictional(
