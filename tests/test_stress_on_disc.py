@@ -209,6 +209,16 @@ def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> N
     assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)
 
 
+STEEL = IsotropicMaterial(young_modulus=21e10, poisson_ratio=0.3)
+LARGE = Paraboloid(radius=18e-3, material=RIGID)
+
+
+def on_steel(thickness: float, modulus: float) -> Body:
+    """A layer of this modulus on steel, in SI units."""
+    material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3)
+    return Body(material=STEEL, layers=(Layer(thickness=thickness, material=material),))
+
+
 @pytest.mark.parametrize(
     ("solver", "sizes"),
     [
@@ -222,14 +232,8 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
 ) -> None:
     """Largest at half the depth from the axis, far beyond the points next to the contact. A bulk
     strain, whose stress is as large at any distance, does not change it."""
-    steel = IsotropicMaterial(young_modulus=2e11, poisson_ratio=0.3)
     depth, force = 2e-3, 10.0  # of contacts with radii of 0.05 mm
-    body = Body(material=steel, layers=(Layer(thickness=depth, material=steel),))
-    scene = Scene(
-        indenter=Paraboloid(radius=3e-3, material=RIGID),
-        body=body,
-        loading=(LoadStep(normal_force=force),),
-    )
+    scene = scene_of(on_steel(depth, 21e10), Paraboloid(radius=3e-3, material=RIGID), force)
     state = state_of_result(slipstick.solve(scene, solver, sizes), 1).with_bodies_of(scene)
     state = replace(state, strain=(strain, strain, 0.0) if strain else None)
     field = body_response(state).stress()
@@ -245,16 +249,9 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
 
 def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
     """On both sides of the interface of a thick soft layer, up to 200 contact radii away."""
-    steel, soft = (
-        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
-    )
-    depth, force = 6e-3, 1e3
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel, layers=(Layer(thickness=depth, material=soft),)),
-        friction=CoulombFriction(coefficient=0.2),
-        loading=(LoadStep(normal_force=force), LoadStep(tangential_force=(100.0, 0.0))),
-    )
+    depth = 6e-3
+    pushed = LoadStep(tangential_force=(50.0, 0.0))
+    scene = frictional(on_steel(depth, 2e10), LARGE, LoadStep(normal_force=1e3), pushed)
     state = state_of_result(slipstick.solve(scene, "radial"), 2)
     response = OnDisc(state)
     found = {(e.region, e.measure): e for e in extremes(response.stress())}
@@ -269,16 +266,8 @@ def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
 
 def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     """Two refinements of a maximum have depths that differ by round-off."""
-    steel = IsotropicMaterial(young_modulus=21e10, poisson_ratio=0.3)
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel),
-        friction=CoulombFriction(coefficient=0.1),
-        loading=(
-            LoadStep(normal_force=1e3, increments=8),
-            LoadStep(tangential_force=(100.0, 0.0)),
-        ),
-    )
+    steps = LoadStep(normal_force=1e3, increments=8), LoadStep(tangential_force=(100.0, 0.0))
+    scene = frictional(Body(material=STEEL), LARGE, *steps)
     result = slipstick.solve(scene, "radial")
     state = state_of_result(result, 2, slipstick.stated_errors(result))
     field = OnDisc(state).stress()
@@ -292,15 +281,8 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
 def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) -> None:
     """Also where the tension of an interface begins beyond the first window, and in a base that
     begins below the usual depths."""
-    steel, soft = (
-        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
-    )
     radius = 0.86e-3  # of the contact without layer
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel, layers=(Layer(thickness=thickness * radius, material=soft),)),
-        loading=(LoadStep(normal_force=1e3),),
-    )
+    scene = scene_of(on_steel(thickness * radius, 2e10), LARGE, 1e3)
     named = []
     for solver, sizes in (
         ("semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
