@@ -27,6 +27,3 @@ def stacks(
         return elastic
     films = st.lists(film, min_size=max(1, min_layers), max_size=max_layers)
     return elastic | st.builds(Stack, films)
-
-
-WAVENUMBERS = st.floats(-4, 4).map(lambda decade: 10**decade)
