@@ -18,7 +18,6 @@ from slipstick.convergence.limits import Estimate, estimates
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import PointContact, tangential_modulus
-from verification.closed_forms.torsion import TorsionalPartialSlip
 
 R = 18e-3
 W = 1e3
@@ -102,12 +101,6 @@ def loop_end() -> TangentialHistory:
     return history
 
 
-def twisted(torque: float) -> TorsionalPartialSlip:
-    modulus = 420e9 / 2.6 / 2
-    return TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, modulus)
-
-
-TORQUE = 0.5 * twisted(0.0).sliding_moment
 PUNCH = FlatPunchContact.under_load(W, 0.4e-3, E)
 CONE = ConeContact.under_load(W, 0.02, E)
 LOOP = [
@@ -155,11 +148,6 @@ SCENES = {
             "energy_per_cycle": 4 * pushed(0.9).dissipated_energy,
         },
         5e-4,
-    ),
-    "torsion": Scene(
-        text(BALL, ALIKE, ALIKE, f"torque = {TORQUE}", more=FRICTION),
-        {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius},
-        2e-3,
     ),
 }
 
