@@ -88,7 +88,8 @@ class Scene:
 
     def estimates(self, folder: Path) -> tuple[Estimate, ...]:
         n = self.mesh
-        mesh = f"[semi_analytical]\ncells = [{n}, {n}]\n[fem_reference]\nelements_per_radius = {n}"
+        cells = n if "cylinder" in self.text else [n, n]
+        mesh = f"[semi_analytical]\ncells = {cells}\n[fem_reference]\nelements_per_radius = {n}"
         contents = read(f"{self.text}{mesh}", folder)
         plan = plan_of(StudiedScene(contents, len(contents.loading), self.solver), None)
         return estimates(plan, {level.name: level.compute() for level in plan.cases})
@@ -112,6 +113,8 @@ ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
 PRESSED = text(BALL, RIGID, STEEL)
+LINE = text(BALL.replace("paraboloid", "cylinder"), RIGID, STEEL).replace("1 kN", "1 kN/mm")
+HALF_WIDTH = float(np.sqrt(4e6 * R / (np.pi * E)))
 SCENES = {
     "smooth Hertz": Scene(PRESSED, SMOOTH, 1e-5),
     "smooth Hertz on elements": Scene(PRESSED, SMOOTH, 1e-5, solver=FEM),
@@ -121,6 +124,9 @@ SCENES = {
         # the rim on every level.
         {"approach": PUNCH.approach},
         0.15,
+    ),
+    "edge within a strip": Scene(
+        LINE, {"half_width": HALF_WIDTH, "peak_pressure": 2e6 / (np.pi * HALF_WIDTH)}, 0.013, 20
     ),
     "cusp of a cone": Scene(
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
