@@ -34,10 +34,6 @@ def assert_runs(script: Path, folder: Path) -> None:
                 raise
 
 
-def test_there_are_examples() -> None:
-    assert EXAMPLES
-
-
 @pytest.mark.parametrize(
     "script",
     [
