@@ -139,7 +139,8 @@ class RingSolver(DiscretisedSolver):
 
     def unknowns(self, result: Result) -> int:
         """Count the tractions at points on rings, or the rings of a solve without these points."""
-        return max(1, 3 * result.plan.angles) * result.plan.rings
+        angles = result.plan.angles
+        return 3 * angles * len(result.steps[-1].radii) if angles else result.plan.rings
 
     def record_entry(self, space: float) -> Mapping[str, Any]:
         return {"ring_factor": space}

@@ -1,8 +1,6 @@
 """Hypothesis strategies for layered bodies and wave vectors, over the supported range of the
 FRFs."""
 
-import math
-
 from hypothesis import strategies as st
 
 from semi_analytical.frf.stack import Stack
@@ -29,7 +27,3 @@ def stacks(
         return elastic
     films = st.lists(film, min_size=max(1, min_layers), max_size=max_layers)
     return elastic | st.builds(Stack, films)
-
-
-WAVENUMBERS = st.floats(-4, 4).map(lambda decade: 10**decade)
-ANGLES = st.floats(-math.pi, math.pi)

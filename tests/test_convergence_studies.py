@@ -18,7 +18,6 @@ from slipstick.convergence.limits import Estimate, estimates
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import PointContact, tangential_modulus
-from verification.closed_forms.torsion import TorsionalPartialSlip
 
 R = 18e-3
 W = 1e3
@@ -89,7 +88,8 @@ class Scene:
 
     def estimates(self, folder: Path) -> tuple[Estimate, ...]:
         n = self.mesh
-        mesh = f"[semi_analytical]\ncells = [{n}, {n}]\n[fem_reference]\nelements_per_radius = {n}"
+        cells = n if "cylinder" in self.text else [n, n]
+        mesh = f"[semi_analytical]\ncells = {cells}\n[fem_reference]\nelements_per_radius = {n}"
         contents = read(f"{self.text}{mesh}", folder)
         plan = plan_of(StudiedScene(contents, len(contents.loading), self.solver), None)
         return estimates(plan, {level.name: level.compute() for level in plan.cases})
@@ -102,12 +102,6 @@ def loop_end() -> TangentialHistory:
     return history
 
 
-def twisted(torque: float) -> TorsionalPartialSlip:
-    modulus = 420e9 / 2.6 / 2
-    return TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, modulus)
-
-
-TORQUE = 0.5 * twisted(0.0).sliding_moment
 PUNCH = FlatPunchContact.under_load(W, 0.4e-3, E)
 CONE = ConeContact.under_load(W, 0.02, E)
 LOOP = [
@@ -119,6 +113,8 @@ ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
 PRESSED = text(BALL, RIGID, STEEL)
+LINE = text(BALL.replace("paraboloid", "cylinder"), RIGID, STEEL).replace("1 kN", "1 kN/mm")
+HALF_WIDTH = float(np.sqrt(4e6 * R / (np.pi * E)))
 SCENES = {
     "smooth Hertz": Scene(PRESSED, SMOOTH, 1e-5),
     "smooth Hertz on elements": Scene(PRESSED, SMOOTH, 1e-5, solver=FEM),
@@ -128,6 +124,9 @@ SCENES = {
         # the rim on every level.
         {"approach": PUNCH.approach},
         0.15,
+    ),
+    "edge within a strip": Scene(
+        LINE, {"half_width": HALF_WIDTH, "peak_pressure": 2e6 / (np.pi * HALF_WIDTH)}, 0.013, 20
     ),
     "cusp of a cone": Scene(
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
@@ -155,11 +154,6 @@ SCENES = {
             "energy_per_cycle": 4 * pushed(0.9).dissipated_energy,
         },
         5e-4,
-    ),
-    "torsion": Scene(
-        text(BALL, ALIKE, ALIKE, f"torque = {TORQUE}", more=FRICTION),
-        {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius},
-        2e-3,
     ),
 }
 

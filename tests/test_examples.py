@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "docs"))
 
-from gallery_claims import SCENES, Claim, Comparison, Verdict, compare  # noqa: E402
+from gallery_claims import SCENES, Claim, Comparison, Verdict  # noqa: E402
 from gallery_entries import ENTRIES  # noqa: E402
 from made_gallery import UnexpectedVerdict, refuse_unexpected  # noqa: E402
 from made_notebooks import notebook  # noqa: E402
@@ -32,10 +32,6 @@ def assert_runs(script: Path, folder: Path) -> None:
         except SystemExit as end:
             if end.code:
                 raise
-
-
-def test_there_are_examples() -> None:
-    assert EXAMPLES
 
 
 @pytest.mark.parametrize(
@@ -67,17 +63,10 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
 # ---- gallery
 
 
-@pytest.mark.slow  # the pages are not made of other verdicts, either
-@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
-def test_verdicts_are_those_expected(entry) -> None:
-    judged = [compare(entry, claim) for claim in entry.claims]
-    assert judged
-    refuse_unexpected(entry, judged)
-
-
 def test_every_scene_of_the_gallery_has_its_page() -> None:
     assert {path.stem for path in SCENES.glob("*.toml")} == {entry.scene for entry in ENTRIES}
     assert len(ENTRIES) >= 12
+    assert all(entry.claims for entry in ENTRIES)
 
 
 def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -> Claim:

@@ -13,45 +13,26 @@ from contact_scene import (
     CoulombFriction,
     FrictionMap,
 )
-from contact_scene.friction import FRICTIONLESS, sliding_friction
+from contact_scene.friction import sliding_friction
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))
-UNIFORM = st.floats(0.0, 2.0).map(lambda mu: CoulombFriction(coefficient=mu))
-MAPPED = arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)).map(
-    lambda values: CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1.0}})
-)
+COEFFICIENTS = st.floats(0.0, 2.0)
 BOX = (slice(1, 5), slice(2, 4))
 
 
-@given(UNIFORM | MAPPED, PRESSURES)
-def test_the_limit_on_a_part_of_the_surface_is_that_part_of_the_limit(friction, p) -> None:
-    whole = friction.limit(p)
-    assert whole.shape == p.shape
-    np.testing.assert_array_equal(friction.limit(p[BOX], where=BOX), whole[BOX])
-
-
-@given(UNIFORM | MAPPED, PRESSURES)
-def test_the_limit_is_between_none_and_the_largest_ratio_of_the_pressure(friction, p) -> None:
-    limit = friction.limit(p)
-    assert np.all((limit >= 0) & (limit <= friction.largest * p))
-    assert np.all(limit[p == 0] == 0)
-    assert not np.any(FRICTIONLESS.limit(p))
-
-
-@given(UNIFORM | MAPPED, PRESSURES)
-def test_the_slope_is_how_fast_the_limit_grows(friction, p) -> None:
-    step = np.full(CELLS, 2.0**20)
-    grown = friction.limit(p + step) - friction.limit(p)
-    np.testing.assert_allclose(grown, friction.slope(p) * step, atol=1e-6)
-
-
-@given(UNIFORM | MAPPED, PRESSURES)
-def test_what_is_carried_in_all_is_the_sum_of_the_limit_or_not_known(friction, p) -> None:
-    carried = friction.largest_tangential_force(float(np.sum(p)))
-    assert (carried is None) == (friction.uniform is None) == (friction.coefficient_map is not None)
-    if carried is not None:
-        assert carried == pytest.approx(float(np.sum(friction.limit(p))), rel=1e-12, abs=1e-300)
+@given(COEFFICIENTS | arrays(np.float64, CELLS, elements=COEFFICIENTS), PRESSURES)
+def test_friction_carries_the_pressure_times_the_coefficient_of_the_place(mu, p) -> None:
+    """What it carries in all is known unless the coefficients of a map differ."""
+    given = mu if isinstance(mu, float) else {"map": mu, "spacing": 1.0}
+    friction, limit = CoulombFriction.model_validate({"coefficient": given}), mu * p
+    np.testing.assert_array_equal(friction.limit(p), limit)
+    np.testing.assert_array_equal(friction.limit(p[BOX], where=BOX), limit[BOX])
+    assert np.all(friction.slope(p) == mu)
+    assert friction.largest == np.max(mu)
+    carried, differ = friction.largest_tangential_force(float(np.sum(p))), np.ptp(mu) > 0
+    assert (carried is None) == (friction.coefficient_map is not None) == differ
+    assert differ or carried == pytest.approx(np.sum(limit), rel=1e-12, abs=1e-300)
 
 
 def mapped(values, **placed):

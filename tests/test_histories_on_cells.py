@@ -1,10 +1,8 @@
-"""Tests of load histories on cells: from the limit, turns of a slide, lost contact, and errors."""
+"""Tests of load histories on cells: from the limit, turns of a slide, and errors."""
 
 import numpy as np
 import pytest
 from contact_scenes import (
-    INDENTERS,
-    LOAD,
     MU,
     PRESS,
     A,
@@ -52,24 +50,6 @@ def test_a_slide_that_turns_slides_again_once_shear_has_turned_too() -> None:
         ContactStatus.NO_STICK_AREA_LEFT,
         ContactStatus.GROSS_SLIDING,
     ]
-
-
-FINE = 1e-9
-
-
-def increments(*loading, **more):
-    return solve(scene(*loading, **more), grid(), FINE).increments
-
-
-@pytest.mark.parametrize(
-    ("shape", "exponent"),
-    [("paraboloid", 3), ("sphere", 3), ("ellipsoid", 3), ("cone", 2), ("flat punch", 1)],
-)
-def test_first_loading_is_uniform_in_contact_radius(shape, exponent):
-    pressing = {"normal_force": 0.3 * LOAD, "increments": 4}
-    found = [i.normal_force for i in increments(pressing, indenter=INDENTERS[shape], friction=None)]
-    expected = 0.3 * LOAD * (np.arange(1, 5) / 4) ** exponent
-    np.testing.assert_allclose(found, expected, rtol=1e-14)
 
 
 def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):

@@ -1,4 +1,4 @@
-"""Tests of single increments: the initial guess, products of a loop, and the contact fraction."""
+"""Tests of single increments: counted products, one cell in contact, and the contact fraction."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,6 @@ from contact_scenes import (
     scene,
 )
 from coupled_scenes import press
-from coupled_scenes import push as coupled_push
 from coupled_scenes import scene as coupled_scene
 
 from contact_scene.quantities.summary import ContactStatus
@@ -33,29 +32,6 @@ def test_products_are_counted_and_a_constant_load_needs_none_of_pressure(monkeyp
         monkeypatch.setattr(DisplacementOperator, name, counted(name, plain))
     pressed, pushed = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE).increments
     assert made == ["normal"] * pressed.convolutions + ["tangential"] * (pushed.convolutions // 2)
-
-
-def products(described, cells):
-    """Of two convolutions each, in every increment but the first, which presses."""
-    increments = solve(described, grid(cells), TOLERANCE).increments
-    assert all(increment.halvings == 0 for increment in increments)
-    return np.array([0.5 * increment.convolutions for increment in increments[1:]])
-
-
-def test_a_loop_takes_few_products_on_any_cells():
-    """Nested grids, the inverse on stick and the diagonal on slip took 41 and 80."""
-    loop = scene(PRESS, push(0.9, increments=9), push(-0.9, increments=18))
-    few, many = (np.mean(products(loop, cells)) for cells in (32, 128))
-    assert few < 17
-    assert many < 1.3**2 * few
-
-
-def test_a_coupled_increment_takes_few_products():
-    """Of three convolutions each; separate solvers in turns took 161."""
-    described = coupled_scene(press(increments=15), coupled_push(0.9, increments=20))
-    increments = solve(described, grid(64), TOLERANCE).increments
-    assert all(increment.halvings == 0 for increment in increments)
-    assert np.mean([increment.convolutions for increment in increments]) < 62
 
 
 def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():

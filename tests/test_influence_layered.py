@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.polynomial.legendre import leggauss
 from stack_strategies import HALF_SPACES
 
 from semi_analytical.frf.stack import Stack
@@ -105,30 +104,3 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
     error = np.abs(all_components(layered) - all_components(expected)).max()
     # What the corner differences of the closed form lose at this distance.
     assert error < 2e-13 * own_cell(layered)
-
-
-HARD = {
-    "film 1e-4 of a cell": Stack([(30.0, 0.3, 1e-4)], (1.0, 0.25)),
-    "soft film 1e-3 of a cell on a rigid base": Stack([(1.0, 0.3, 1e-3)]),
-    "incompressible film of half a cell on a rigid base": Stack([(1.0, 0.5, 0.5)]),
-    "layer of 1e4 cells": Stack([(2.0, 0.3, 1e4)], (1.0, 0.5)),
-    "layers from 1e-3 to 1e3 cells": Stack(
-        [(5.0, 0.2, 1e-3), (0.1, 0.5, 1.0), (3.0, 0.0, 1e3)], (1.0, 0.3)
-    ),
-    "contrast 1e6": Stack([(1e6, 0.3, 0.1)], (1.0, 0.3)),
-}
-
-
-@pytest.mark.parametrize("stack", HARD.values(), ids=HARD)
-def test_other_cells_by_quadrature(stack):
-    sides, (nodes, weights) = (1.0, 0.7), leggauss(60)
-    made, table = LayeredCoefficients(stack, sides, (40, 40)), remainder_table(stack, 60.0)
-    coefficients = {name: made[name] for name in ("zz", "xx", "yy", "zx")}
-    for cell in ((1, 0), (0, 2), (3, 5), (33, 4)):
-        x, y = (side * (at + nodes / 2) for at, side in zip(cell, sides, strict=True))
-        r, areas = np.hypot(x[:, None], y), 0.175 * weights[:, None] * weights
-        layers = table(r.ravel()).reshape(4, *r.shape)
-        radial = half_space_response(stack.outer)[:, None, None] / r + layers
-        for integrand, name in ((radial[0], "zz"), (radial[3] * x[:, None] / r, "zx")):
-            error = abs(coefficients[name][cell] - np.sum(areas * integrand))
-            assert error < 1e-12 * own_cell(coefficients)

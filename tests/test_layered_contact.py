@@ -3,39 +3,17 @@
 import numpy as np
 import pytest
 from contact_scenes import INDENTERS, MU, PRESS, A, push, scene, steel
+from coupled_scenes import coated
+from coupled_scenes import scene as coupled_scene
 
 from contact_scene import (
-    RIGID,
-    Body,
     HeightMap,
-    IsotropicMaterial,
-    Layer,
-    LoadStep,
-    Paraboloid,
-    Scene,
     SurfaceDiscretisation,
 )
 from semi_analytical import (
     discretise,
     solve_discretised,
 )
-
-RADIUS = 100.0
-
-
-def material(E: float, nu: float = 0.3) -> IsotropicMaterial:
-    return IsotropicMaterial(young_modulus=E, poisson_ratio=nu)
-
-
-def body(base: IsotropicMaterial, *layers: tuple[float, IsotropicMaterial]) -> Body:
-    return Body(material=base, layers=[Layer(thickness=h, material=m) for h, m in layers])
-
-
-def pressed(lower: Body, upper: Body | None = None, **load: float) -> Scene:
-    upper = upper or Body(material=RIGID)
-    ball = Paraboloid(radius=RADIUS, material=upper.material, layers=upper.layers)
-    return Scene(indenter=ball, body=lower, loading=(LoadStep(**load),))
-
 
 COARSE = SurfaceDiscretisation(cells=(48, 48), tolerance=1e-6)
 LOADS = [1e-12, 1e-3, 1.0, 1e9]
@@ -66,8 +44,7 @@ def test_window_fits_any_shape_under_any_load(name, load):
 
 @pytest.mark.parametrize("ratio", [0.1, 10.0])
 def test_window_fits_on_a_film(ratio):
-    lower = body(material(1.0), (0.3, material(ratio)))
-    assert_window_fits(pressed(lower, normal_force=0.015))
+    assert_window_fits(coupled_scene(PRESS, body=coated(ratio, 0.3), friction=None))
 
 
 def test_window_holds_the_largest_contact_of_the_history():

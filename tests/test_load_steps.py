@@ -1,36 +1,19 @@
 """Tests of load steps: prescribed quantities, ramps, and the limits of force control."""
 
 from contextlib import nullcontext
-from typing import Any
 
 import numpy as np
 import pytest
+from contact_scenes import scene, steel
 
 from contact_scene import (
     Body,
-    ControlKind,
-    CoulombFriction,
     HeightMap,
-    IsotropicMaterial,
     LoadStep,
     Scene,
     SceneError,
-    Sphere,
 )
 from contact_scene.stepping.load_path import along_one_line, first_direction
-
-STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-FORCE = ControlKind.FORCE
-DISPLACEMENT = ControlKind.DISPLACEMENT
-
-
-def scene(*steps: dict[str, Any], mu: float | None = 0.1) -> Scene:
-    return Scene(
-        indenter=Sphere(radius=0.018, material=STEEL),
-        body=Body(material=STEEL),
-        friction=None if mu is None else CoulombFriction(coefficient=mu),
-        loading=tuple(LoadStep(**step) for step in steps),
-    )
 
 
 @pytest.mark.parametrize(
@@ -48,10 +31,10 @@ def test_the_direction_is_that_of_the_first_push_and_a_line_goes_both_ways(
 
 def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:
     narrow = HeightMap.model_validate(
-        {"file": np.zeros((8, 4)), "spacing": 1e-3, "material": STEEL}
+        {"file": np.zeros((8, 4)), "spacing": 1e-3, "material": steel()}
     )
     for moment, tips in (((0.0, 3e-3), False), ((3e-3, 0.0), True)):
         step = LoadStep(normal_force=1.0, moment=moment)
         with pytest.raises(SceneError, match="tips over") if tips else nullcontext():
-            posed = Scene(indenter=narrow, body=Body(material=STEEL), loading=(step,))
+            posed = Scene(indenter=narrow, body=Body(material=steel()), loading=(step,))
     assert posed.loading[0].moment == (0.0, 3e-3)

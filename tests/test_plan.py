@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
+from contact_scenes import INDENTERS, PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
 from coupled_scenes import bulk, coated
 from coupled_scenes import scene as coupled_scene
 
@@ -36,16 +36,24 @@ def test_unloading_to_almost_nothing_has_a_bounded_number_of_increments(of, inde
     assert 20 <= counts[-1] <= 100
 
 
-@pytest.mark.parametrize(("least", "order"), [(0.0, 3), (1e-6, 3), (0.1, 3), (0.3, 1)])
-def test_increments_follow_small_loads_by_the_contact_radius(least, order):
-    """Uniform in W^(1/3) from and to loads below that of one increment, else in W."""
-    loads = least * PRESS["normal_force"], PRESS["normal_force"]
+@pytest.mark.parametrize(
+    ("least", "shape", "order"),
+    [
+        *[(0.0, shape, 3) for shape in ("paraboloid", "sphere", "ellipsoid")],
+        *[(0.0, "cone", 2), (0.0, "flat punch", 1)],
+        *[(1e-6, "paraboloid", 3), (0.1, "paraboloid", 3), (0.3, "paraboloid", 1)],
+    ],
+)
+def test_increments_follow_small_loads_by_the_contact_radius(least, shape, order):
+    """Uniform in it from and to loads below that of one increment, else in the load."""
+    indenter, loads = INDENTERS[shape], (least * PRESS["normal_force"], PRESS["normal_force"])
     for end, start in (loads, loads[::-1]):
-        path = scene(PRESS, {"normal_force": start or LEAST}, {"normal_force": end}).load_path()
-        ramp = replace(path[-1], normal=replace(path[-1].normal, start=start))
-        parts = np.array([0.0, *fractions(scene(PRESS), ramp, 5)])
-        radii = np.cbrt if order == 3 else np.asarray
-        steps = np.diff(radii((start + parts * (end - start)) / loads[1]))
+        steps = {"normal_force": start or LEAST}, {"normal_force": end}
+        posed = scene(*steps, indenter=indenter)
+        ramp = posed.load_path()[-1]
+        ramp = replace(ramp, normal=replace(ramp.normal, start=start))
+        parts = np.array([0.0, *fractions(posed, ramp, 5)])
+        steps = np.diff(((start + parts * (end - start)) / loads[1]) ** (1 / order))
         assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
 
 

@@ -148,9 +148,6 @@ def test_a_stuck_ring_beyond_the_contact_edge_has_no_area() -> None:
     )
 
 
-RINGS = np.arange(9.0)
-
-
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
 @pytest.mark.parametrize("count", [6, 7])
 def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
@@ -164,24 +161,3 @@ def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
     whole = np.tile(sticks, (count, 1)).T
     area = point_stick_area(radii, shear, np.full(size.shape, 200.0), whole)
     assert np.sqrt(area / np.pi) == pytest.approx(150 + beyond, abs=6e-3)
-
-
-def test_a_stick_area_does_not_depend_on_the_direction_of_the_shear() -> None:
-    """The angle of the shear jumps by 2π between any two points near the border of a sector."""
-    count = 64
-    angles = 2 * np.pi * np.arange(count) / count
-    missing = np.maximum(0.0, np.cos(angles - np.pi) - np.cos(1.0))
-    sticks = np.tile(missing > 0, (len(RINGS), 1))
-    way = 0.7 * np.sin(angles) - angles
-
-    def area_of(way: np.ndarray) -> float:
-        shear = (2.0 - missing) * np.stack([np.cos(way), np.sin(way)])
-        whole = np.broadcast_to(shear[:, None], (2, *sticks.shape))
-        return point_stick_area(RINGS, whole, np.full(sticks.shape, 2.0), sticks)
-
-    area = area_of(way)
-    assert area == pytest.approx(RINGS[-1] ** 2, rel=0.1)  # of a sector of two radians
-    for last in np.flatnonzero(np.diff(sticks[0])):
-        beside = way[last - 2 : last + 4]
-        for jump in (beside[1:] + beside[:-1]) / 2:
-            assert area_of(way + np.pi - jump) == pytest.approx(area, rel=1e-9)

@@ -79,15 +79,6 @@ def test_a_mirrored_or_turned_zone_is_as_large():
             assert stick_area(*even, domain=domain) == pytest.approx(stick_area(*even), rel=1e-12)
 
 
-def test_without_a_border_cells_count():
-    """A stick zone of two cells radius, stick all over, and none at all."""
-    assert stick_area(*contact(2.2, 0.5)) == stuck_cells(*contact(2.2, 0.5))
-    shear, bound, stick = contact(9.3, 0.5)
-    held = 0.1 * shear, bound, bound > 0
-    assert stick_area(*held) == stuck_cells(*held)
-    assert stick_area(shear, bound, stick & False) == 0
-
-
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
     "circle": ((20.0, 20.0), 1e-3),

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 from hypothesis import given
@@ -17,6 +18,7 @@ import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
+from contact_results.stress.files import SECTION, write_files
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.stress_maxima import extremes
@@ -165,16 +167,30 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
     assert_allclose(upper["zz"], lower["zz"])
 
 
-@pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0), (-1.0, 0.0)])
-def test_a_stress_turns_as_a_tensor(
-    direction: tuple[float, float], rng: np.random.Generator
+@pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0)])
+def test_stress_at_points_and_in_files_turns_with_the_load(
+    direction: tuple[float, float], rng: np.random.Generator, tmp_path: Path
 ) -> None:
-    axis = OnDisc(state_of_result(radial.solve(scene_of(BARE)), None)).stress([0.3]).axis
-    points = replace(axis, stress=rng.normal(size=axis.stress.shape))
+    """A vector turns by a rotation, a stress by one on each of its indices."""
     c, s = direction
     turn, voigt = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
-    expected = np.einsum("ia,jb,abn->ijn", turn, turn, points.stress[voigt])
-    assert_allclose(points.rotate_to_scene(direction).stress[voigt], expected, atol=1e-14)
+    states = [state_of_result(radial.solve(scene), None) for scene in (pushed(), pushed(direction))]
+    places, levels = rng.uniform(-1.5, 1.5, (2, 9)), [Level(0.3, 0)] * 9
+    one, other = (
+        OnDisc(state).stress_at(*at, levels)
+        for state, at in zip(states, (places, turn[:2, :2] @ places), strict=True)
+    )
+    expected = np.einsum("ia,jb,abn->ijn", turn, turn, one.stress[voigt])
+    assert_allclose(other.stress[voigt], expected, atol=1e-9)
+    assert_allclose(other.displacement, turn @ one.displacement, atol=1e-9)
+    field = OnDisc(states[1]).stress([0.2, 0.4])
+    write_files(states[1], "body", field, extremes(field), tmp_path, None, None)
+    section = meshio.read(tmp_path / SECTION)
+    some = slice(None, None, 29)
+    x, y, depth = section.points[some].T
+    at_nodes = OnDisc(states[1]).stress_at(x, y, [Level(float(z), 0) for z in depth])
+    tensors = section.point_data["stress [Pa]"][some].T
+    assert_allclose(tensors.reshape(3, 3, -1), at_nodes.stress[voigt], atol=1e-6)
 
 
 TWISTED = frictional(
@@ -193,6 +209,16 @@ def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> N
     assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)
 
 
+STEEL = IsotropicMaterial(young_modulus=21e10, poisson_ratio=0.3)
+LARGE = Paraboloid(radius=18e-3, material=RIGID)
+
+
+def on_steel(thickness: float, modulus: float) -> Body:
+    """A layer of this modulus on steel, in SI units."""
+    material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3)
+    return Body(material=STEEL, layers=(Layer(thickness=thickness, material=material),))
+
+
 @pytest.mark.parametrize(
     ("solver", "sizes"),
     [
@@ -206,14 +232,8 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
 ) -> None:
     """Largest at half the depth from the axis, far beyond the points next to the contact. A bulk
     strain, whose stress is as large at any distance, does not change it."""
-    steel = IsotropicMaterial(young_modulus=2e11, poisson_ratio=0.3)
     depth, force = 2e-3, 10.0  # of contacts with radii of 0.05 mm
-    body = Body(material=steel, layers=(Layer(thickness=depth, material=steel),))
-    scene = Scene(
-        indenter=Paraboloid(radius=3e-3, material=RIGID),
-        body=body,
-        loading=(LoadStep(normal_force=force),),
-    )
+    scene = scene_of(on_steel(depth, 21e10), Paraboloid(radius=3e-3, material=RIGID), force)
     state = state_of_result(slipstick.solve(scene, solver, sizes), 1).with_bodies_of(scene)
     state = replace(state, strain=(strain, strain, 0.0) if strain else None)
     field = body_response(state).stress()
@@ -229,16 +249,9 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
 
 def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
     """On both sides of the interface of a thick soft layer, up to 200 contact radii away."""
-    steel, soft = (
-        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
-    )
-    depth, force = 6e-3, 1e3
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel, layers=(Layer(thickness=depth, material=soft),)),
-        friction=CoulombFriction(coefficient=0.2),
-        loading=(LoadStep(normal_force=force), LoadStep(tangential_force=(100.0, 0.0))),
-    )
+    depth = 6e-3
+    pushed = LoadStep(tangential_force=(50.0, 0.0))
+    scene = frictional(on_steel(depth, 2e10), LARGE, LoadStep(normal_force=1e3), pushed)
     state = state_of_result(slipstick.solve(scene, "radial"), 2)
     response = OnDisc(state)
     found = {(e.region, e.measure): e for e in extremes(response.stress())}
@@ -253,16 +266,8 @@ def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
 
 def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     """Two refinements of a maximum have depths that differ by round-off."""
-    steel = IsotropicMaterial(young_modulus=21e10, poisson_ratio=0.3)
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel),
-        friction=CoulombFriction(coefficient=0.1),
-        loading=(
-            LoadStep(normal_force=1e3, increments=8),
-            LoadStep(tangential_force=(100.0, 0.0)),
-        ),
-    )
+    steps = LoadStep(normal_force=1e3, increments=8), LoadStep(tangential_force=(100.0, 0.0))
+    scene = frictional(Body(material=STEEL), LARGE, *steps)
     result = slipstick.solve(scene, "radial")
     state = state_of_result(result, 2, slipstick.stated_errors(result))
     field = OnDisc(state).stress()
@@ -276,15 +281,8 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
 def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) -> None:
     """Also where the tension of an interface begins beyond the first window, and in a base that
     begins below the usual depths."""
-    steel, soft = (
-        IsotropicMaterial(young_modulus=modulus, poisson_ratio=0.3) for modulus in (21e10, 2e10)
-    )
     radius = 0.86e-3  # of the contact without layer
-    scene = Scene(
-        indenter=Paraboloid(radius=18e-3, material=RIGID),
-        body=Body(material=steel, layers=(Layer(thickness=thickness * radius, material=soft),)),
-        loading=(LoadStep(normal_force=1e3),),
-    )
+    scene = scene_of(on_steel(thickness * radius, 2e10), LARGE, 1e3)
     named = []
     for solver, sizes in (
         ("semi-analytical", SurfaceDiscretisation(cells=(48, 48))),

@@ -14,20 +14,11 @@ from report_examples import case, report_of, run_record, study
 from verification.cases.indenters import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
 from verification.judging.judgement import judge
-from verification.judging.outcome import (
-    CaseOutcome,
-)
 from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
 from verification.report.files import write_report
 from verification.report.page import render_page, render_sheets
-from verification.report.summary_text import OMISSIONS
 from verification.running.provenance import provenance
-from verification.running.report_record import (
-    Report,
-    count,
-    load_report,
-    report_schema,
-)
+from verification.running.report_record import Report, load_report, report_schema
 
 VOID = {"meta", "br", "link", "img", "hr"}
 PAYLOADS = (
@@ -40,20 +31,12 @@ PAYLOADS = (
 )
 
 
-def made_by(*outcomes: CaseOutcome) -> Report:
-    return Report(
-        level="quick",
-        counts=count(outcomes),
-        cases=outcomes,
-        omissions=OMISSIONS,
-        provenance=provenance("slipstick verify --level quick", {"hertz_point": 0.1}),
-    )
-
-
 @pytest.fixture(scope="module")
 def report() -> Report:
     hertz = judge(hertz_point(cells=(16, 20, 24, 32)))
-    return made_by(hertz, judge(cattaneo_mindlin(cells=(24, 28, 32))))
+    report = report_of((hertz, judge(cattaneo_mindlin(cells=(24, 28, 32)))))
+    made = provenance("slipstick verify --level quick", {"hertz_point": 0.1})
+    return report.model_copy(update={"provenance": made})
 
 
 RENDERED = {PAGE: render_page, SHEETS: render_sheets}
