@@ -83,7 +83,8 @@ UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 NOT_MEASURED = "no number of the run shows the error of the shear, which the stress has as well"
 COARSE = 2.0  # coarsening factor of the tractions
-WIDER = 4.0  # ratio of the sections of finite elements that are compared
+# Ratio of the sections of finite elements that are compared, as for the scalars of the contact.
+WIDER = 4.0
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
