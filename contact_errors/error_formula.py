@@ -381,17 +381,17 @@ class SolvedRun:
         """True for load steps at whose end no cell slips, although the edge of the contact does.
 
         The slip zone may then be smaller than a cell in all compared solves. The edge slips if
-        shear acts or has acted, or friction acts on unlike bodies. It does not below a rim, and
-        under loads that grow together.
+        shear acts or has acted, or friction acts on unlike bodies. It does not under loads that
+        grow together, and below a rim of bodies without coupling.
         """
         scene, shears, found = self.scene, False, []
-        smooth = scene.friction is not None and scene.indenter.rim is None
-        coupled = smooth and coupling(scene)[0]
+        coupled = scene.friction is not None and coupling(scene)[0]
+        slips = coupled or (scene.friction is not None and scene.indenter.rim is None)
         for ramp, features in zip(scene.load_path(), self.features, strict=True):
             loaded = any(ramp.tangential.end) or ramp.twisting.end or ramp.strains
             shears = shears or coupled or bool(loaded and not grows_without_slip(scene, ramp))
             narrow = features.annulus is None or features.annulus < NARROWEST
-            found.append(smooth and shears and bool(features.stick) and narrow)
+            found.append(slips and shears and bool(features.stick) and narrow)
         return found
 
     @cached_property

@@ -83,7 +83,8 @@ UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted
 THIN = "a layer is thinner than two elements of the contact"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
-WIDER = 4.0  # ratio of the sections of finite elements that are compared
+# Ratio of the sections of finite elements that are compared, as for the scalars of the contact.
+WIDER = 4.0
 # Least thickness of a layer in elements of the contact. Tractions of elements err at the edge by
 # half an element. Below a stiff film of 1.5 elements the tension errs by 17 %, three times its
 # stated error, and that of 2.2 elements by 6 %, within it.

@@ -24,6 +24,7 @@ PERCENTILES = (5.0, 50.0, 95.0)
 MAX_KEYS = 2
 MAX_TICKS = 8
 LEAST_TICKS = 2
+MAX_LABEL = 30  # characters in a line beside a panel
 FEW_DECADES = 2
 
 
@@ -131,6 +132,9 @@ def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Varia
     ax.figure.colorbar(image, ax=ax, label=quantity.label)
     largest = np.max(np.nan_to_num(high - low)) / 2
     ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}".rstrip())
+    for key, axis in ((across, ax.xaxis), (upward, ax.yaxis)):
+        if len(key.values) <= MAX_TICKS:  # the fields reach beyond the values, which the ticks mark
+            axis.set_ticks(key.values)
 
 
 def _label(ax: Any, key: Variation, axis: str) -> None:
@@ -138,7 +142,11 @@ def _label(ax: Any, key: Variation, axis: str) -> None:
 
     axis  "x" or "y"
     """
-    ax.set(**{f"{axis}label": f"{key.key} ({key.unit})" if key.unit else key.key})
+    label = f"{key.key} ({key.unit})" if key.unit else key.key
+    if axis == "y" and len(label) > MAX_LABEL:
+        table, _, last = label.rpartition(".")
+        label = f"{table}\n.{last}"
+    ax.set(**{f"{axis}label": label})
     if key.is_log:
         ax.set(**{f"{axis}scale": "log"})
         shown = round_ticks(min(key.values), max(key.values))

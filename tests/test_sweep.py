@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
-from slipstick.sweep_chart import SweptQuantity, round_ticks
+from slipstick.sweep import Variation
+from slipstick.sweep_chart import MAX_LABEL, SweptQuantity, _draw_map, _label, round_ticks
 
 
 @pytest.mark.parametrize(
@@ -32,3 +34,18 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all(low < middle)
     assert np.all(middle < high)
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
+
+
+def test_a_map_has_ticks_at_its_values_and_labels_that_fit() -> None:
+    """A field of a map reaches half a step beyond its value, to thicknesses below zero."""
+    keys = [
+        Variation("body.layers[1].thickness", "mm", (0.1, 0.4, 0.7)),
+        Variation("body.layers[1].material.young_modulus", "GPa", (100.0, 450.0)),
+    ]
+    ax = Figure().add_subplot()
+    quantity = SweptQuantity("approach", "m", np.ones((3, 2, 1)), np.zeros((3, 2, 1)))
+    _draw_map(ax, quantity, *keys)
+    for key, axis in zip(keys, "xy", strict=True):
+        _label(ax, key, axis)
+    assert (*ax.get_xticks(), *ax.get_yticks()) == (0.1, 0.4, 0.7, 100.0, 450.0)
+    assert max(len(line) for line in ax.get_ylabel().splitlines()) <= MAX_LABEL
