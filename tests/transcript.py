@@ -56,6 +56,9 @@ LOOSER = (  # pattern of a line, allowed difference: relative, of the line's lar
     (re.compile(r"order( \[1\])?: |half_width"), 5e-3, 1e-3, 0.05),
     (re.compile("AxesImage|ContourSet|drawing"), 1e-2, 1e-2, 0.0),  # pixels and cells on a border
 )
+# Round-off changes single counts of work; the sum over all solves shows a worse first guess.
+WORK = re.compile("(iterations|convolutions|sweeps|rounds): ")
+SUM_OF_WORK = 0.01
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?(?![\w.]*\w)")
 STATED_ERROR = re.compile(r"± (\d+\.\d+(?:e[-+]?\d+)?)")  # of a difference of solves, two digits
 # Part of an error by the tolerance of the solves: the other parts are differences of such solves.
@@ -324,7 +327,16 @@ def differences(accepted: list[str], found: list[str], shown: int = 6) -> list[s
                     f"{_place(accepted[: a + k + 1])}\n  accepted: {old}\n  found:    {new}"
                 )
     more = [f"and {len(report) - shown} more"] if len(report) > shown else []
+    old, new = map(_work, (accepted, found))
+    if abs(new - old) > max(3.0, SUM_OF_WORK * old):
+        more.append(f"sum of iterations and convolutions\n  accepted: {old:g}\n  found:    {new:g}")
     return report[:shown] + more
+
+
+def _work(lines: list[str]) -> float:
+    """Sum of the counted work of all solves."""
+    counts = (line.partition(": ")[2] for line in lines if WORK.search(line))
+    return sum(float(number) for count in counts for number in NUMBER.findall(count))
 
 
 def _place(lines: list[str]) -> str:
