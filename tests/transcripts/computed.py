@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from verification.problems.drawn.families import drawn
 from verification.running.study import Row, StudyCase
 from verification.studies.coated_tractions import CELLS, RINGS, TractionRun
-from verification.studies.error_coverage import CoverageCase, RequestCase
+from verification.studies.error_coverage import CoverageCase, LimitedLevels, RequestCase
 from verification.studies.seeded_defects import DEFECTS, DefectRun
 from verification.studies.stability.contacts import Solver, StabilityCell, Surface
 from verification.studies.work_precision import Method, PrecisionCase
@@ -59,3 +60,9 @@ for case in CASES:
     if record.parts:
         show_rows(record.parts)
         print(*[row.words[name] for row in record.parts for name in row.words if name != "reason"])
+
+twisted = drawn("twisted", 2, 0).solver
+run = twisted.run_fineness()
+work = np.prod(run.space.cells) * sum(run.increments)
+for most in (0.99 * work, 1.01 * work):
+    print("beyond the limit:", LimitedLevels(twisted, most=most).beyond_limit(run))

@@ -91,6 +91,7 @@ def show_level(level: Level) -> None:
     for case in choose(level):
         show("runs", case.name, case.runs)
         show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
+        show("sheet", case.name, case.title, case.problem, case.equations, case.limits, case.shows)
     for name, study in STUDIES.items():
         show("study", name, study.cases(Settings(level)))
     if level is Level.QUICK:
