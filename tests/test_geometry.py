@@ -102,6 +102,12 @@ def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u: float, v: float, bent
         np.testing.assert_allclose(found, exact, rtol=0, atol=1e-6)
 
 
+def test_a_height_map_is_even_about_both_planes_or_not_at_all() -> None:
+    x, y = centres(6, 1.0)[:, None], centres(5, 1.0)
+    maps = (HeightMap(material=RIGID, file=x**2 + y**2 + odd, spacing=1.0) for odd in (0 * x, x, y))
+    assert [shape.is_even for shape in maps] == [True, False, False]
+
+
 def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
     shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
     shape.initial_gap(6e-3, 4.5e-3)

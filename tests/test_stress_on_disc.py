@@ -33,9 +33,11 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
+from radial.stress.circle_fit import fit_tangential_circle
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
 from radial.stress.subsurface_circle import SubsurfaceCircle
@@ -108,6 +110,20 @@ ANYHOW = circle_of(
     lambda e, t: 1 + 0.2 * e * np.cos(t) + 0.1 * e * np.sin(t),
     centre=0.2,
 )
+
+
+def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
+    def tractions(x: Array, y: Array) -> Array:
+        p = np.sqrt(np.maximum(1 - x**2 - y**2, 0.0)) * (1 + 0.3 * x)
+        return np.stack([0.1 * p * (1 + 0.5 * x), 0.05 * p * y, p])
+
+    radii, angles = np.linspace(0.01, 1.1, 110), np.linspace(0, np.pi, 17)
+    cos, sin = np.cos(angles), np.sin(angles)
+    q_x, q_y, p = tractions(radii[:, None] * cos, radii[:, None] * sin)
+    circle = fit_tangential_circle(radii, angles, q_x * cos + q_y * sin, q_y * cos - q_x * sin, p)
+    x, y = np.array([0.5, -0.5, 0.3, -0.6]), np.array([0.1, -0.2, 0.6, 0.4])
+    found = circle.interpolate_tractions((x - circle.centre) / circle.radius, y / circle.radius)
+    assert_allclose(found, tractions(x, y), rtol=2e-3)
 
 
 @pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])

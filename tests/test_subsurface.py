@@ -37,6 +37,15 @@ def test_some_rows_have_the_fields_of_the_plane(rng):
             np.testing.assert_allclose(some.displacement, whole.displacement[..., rows], atol=1e-12)
 
 
+def test_a_section_has_the_values_of_its_plane_and_of_no_other(rng):
+    whole = subsurface(COATED, GRID, rng.random(GRID.cells), None, [0.1, 0.5])
+    section = whole.along_x(0.25)
+    for of_section, of_whole in zip(section.below(0.3, 0.25), whole.below(0.3, 0.25), strict=True):
+        np.testing.assert_array_equal(of_section, of_whole)
+    with pytest.raises(ValueError, match="outside of the samples"):
+        section.below(0.3, 0.3)
+
+
 def test_a_number_on_an_interface_is_its_upper_side():
     field = subsurface(COATED, GRID, LOAD, None, [0.1, 0.3 * (1 + 1e-15), 0.5, 0.7, 0.8])
     assert [level.layer for level in field.levels] == [0, 0, 1, 1, 2]

@@ -101,6 +101,8 @@ def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(
     for one in found:
         name = one.about["table"]
         assert graph[f"{name}.csv"]["description"] == one.about["problem"]
+        formats = [graph[f"{name}.{kind}"]["encodingFormat"] for kind in ("csv", "json")]
+        assert formats == ["text/csv", "application/json"]
         document = json.loads((tmp_path / "one" / f"{name}.json").read_text())
         assert document["columns"].keys() == document["rows"][0].keys()
         assert all(row["digest"] and row["method"] and row["command"] for row in one.rows)

@@ -45,6 +45,7 @@ SHOWN = 12  # values of a column that are shown one by one; of a longer one, as 
 RELATIVE = 1e-5
 OF_LINE = 1e-6
 LOOSER = (  # pattern of a line, allowed difference: relative, of the line's largest, absolute
+    (re.compile("^out: (constant|estimate) "), 1e-9, 0.0, 0.0),  # without a solve
     # Where a solve ends depends on round-off; half of its tolerance.
     (re.compile("residual|imbalance"), 0.3, 0.0, 5e-9),
     # As in comparisons of reports: preconditioners and first guesses change nothing else.
@@ -55,6 +56,9 @@ LOOSER = (  # pattern of a line, allowed difference: relative, of the line's lar
     (re.compile(r"order( \[1\])?: |half_width"), 5e-3, 1e-3, 0.05),
     (re.compile("AxesImage|ContourSet|drawing"), 1e-2, 1e-2, 0.0),  # pixels and cells on a border
 )
+# Round-off changes single counts of work; the sum over all solves shows a worse first guess.
+WORK = re.compile("(iterations|convolutions|sweeps|rounds): ")
+SUM_OF_WORK = 0.01
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?(?![\w.]*\w)")
 STATED_ERROR = re.compile(r"± (\d+\.\d+(?:e[-+]?\d+)?)")  # of a difference of solves, two digits
 # Part of an error by the tolerance of the solves: the other parts are differences of such solves.
@@ -69,6 +73,8 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"\b\d+\.\d+\.\d+(\.\w+)?\b"), "VERSION"),
     (re.compile(r"(differs( here)?:|cases? \w+ compared with|of (the|\d+) cases:) .*"), "BASELINE"),
 )
+# Of a plan: memory by the sizes of arrays, time by the counted clock of `_run`.
+ESTIMATE = re.compile("^out: .*([KMG]iB|error estimates included)$")
 VARIABLE_KEY = re.compile(
     "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|regression"
     "|baseline[.]|by[.]"
@@ -148,7 +154,7 @@ def _contents(directory: Path) -> dict[str, bytes]:
 
 def _masked(line: str) -> str:
     for pattern, name in VARIABLE:
-        line = pattern.sub(name, line)
+        line = line if ESTIMATE.match(line) else pattern.sub(name, line)
     return line
 
 
@@ -321,7 +327,16 @@ def differences(accepted: list[str], found: list[str], shown: int = 6) -> list[s
                     f"{_place(accepted[: a + k + 1])}\n  accepted: {old}\n  found:    {new}"
                 )
     more = [f"and {len(report) - shown} more"] if len(report) > shown else []
+    old, new = map(_work, (accepted, found))
+    if abs(new - old) > max(3.0, SUM_OF_WORK * old):
+        more.append(f"sum of iterations and convolutions\n  accepted: {old:g}\n  found:    {new:g}")
     return report[:shown] + more
+
+
+def _work(lines: list[str]) -> float:
+    """Sum of the counted work of all solves."""
+    counts = (line.partition(": ")[2] for line in lines if WORK.search(line))
+    return sum(float(number) for count in counts for number in NUMBER.findall(count))
 
 
 def _place(lines: list[str]) -> str:
