@@ -26,7 +26,7 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 from typing import Any
 
 import numpy as np
@@ -80,11 +80,15 @@ NEAR = 2.0
 AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
+SMALL_STICK = "the stress has a peak at the centre of a stick zone that is not resolved"
 THIN = "a layer is thinner than two elements of the contact"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
 # Ratio of the sections of finite elements that are compared, as for the scalars of the contact.
 WIDER = 4.0
+# Least radius of a stick zone, in widths of `NEAR` cells or rings. With 0.5 and 2.5 of them, at the
+# centre of frictional pressing, the von Mises stress on elements errs by twice its stated error.
+STICK = 4.0
 # Least thickness of a layer in elements of the contact. Tractions of elements err at the edge by
 # half an element. Below a stiff film of 1.5 elements the tension errs by 17 %, three times its
 # stated error, and that of 2.2 elements by 6 %, within it.
@@ -216,6 +220,8 @@ def stress_errors(
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     thin = _has_thin_layer(response)
+    # Shear that points to the axis grows to the friction limit over the radius of the stick zone.
+    small_stick = state.shear_turns and (state.stick_radius or 0.0) < STICK * near
     for extreme in found:
         largest, by_shear, by_section = 0.0, 0.0, 0.0
         unresolved = False
@@ -249,6 +255,7 @@ def stress_errors(
             (unresolved, UNRESOLVED),
             (infinite and shallow and not tension, INFINITE),
             (thin, THIN),
+            (small_stick and shallow and hypot(extreme.x, extreme.y) < near, SMALL_STICK),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
         sizes: dict[Part, float] = {part: largest, "increments": by_shear, "section": by_section}

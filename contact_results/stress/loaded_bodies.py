@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -75,6 +76,7 @@ class LoadedBodies:
                     pressure at every radius; None if the pressure is known on cells or rings only
     normal_force    [force], per length of a line contact; None if unknown
     contact_radius  [length]; None if unknown
+    stick_radius    [length]; None if unknown
     peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
     scene           scene of the result; None if unknown
@@ -97,6 +99,7 @@ class LoadedBodies:
     pressed: tuple[ShapedBody, float, float] | None = None
     normal_force: float | None = None
     contact_radius: float | None = None
+    stick_radius: float | None = None
     peak_pressure: float | None = None
     strain: Strain | None = None
     scene: Scene | None = None
@@ -151,6 +154,17 @@ class LoadedBodies:
         layers = range(int(np.max(points.material)) + 1)
         by_layer = np.stack([self.bulk_stress(layer, indenter) for layer in layers])
         return replace(points, stress=points.stress + np.moveaxis(by_layer[points.material], -1, 0))
+
+    @property
+    def shear_turns(self) -> bool:
+        """True if the shear acts in all directions: less than half of it adds up to a force."""
+        given: Any = SimpleNamespace(**{**dict.fromkeys(TRACTIONS), **self.tractions})
+        shear = self.surface.vector(given, "shear")
+        if shear is None:
+            return False
+        weighted = shear.reshape(2, -1) * self.surface.weights.ravel()
+        force = np.hypot(*np.sum(weighted, axis=1))
+        return bool(force < 0.5 * np.sum(np.hypot(*weighted)))
 
     @property
     def surface(self) -> Surface:
@@ -279,6 +293,7 @@ def loaded_bodies(
         pressed=pressed if source.solver == RADIAL else None,
         normal_force=end.normal_force,
         contact_radius=end.contact_radius,
+        stick_radius=end.stick_radius,
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
         scene=scene,
