@@ -86,6 +86,14 @@ def test_an_order_is_kept_as_far_as_it_is_known(
     assert ObservedOrder(order, half_width, 0.8 * half_width).keeps(promised, allowance) is kept
 
 
+@pytest.mark.parametrize(
+    ("order", "margin", "reached"),
+    [(1.95, 0.02, True), (3.0, 0.6, True), (1.85, 0.2, None), (1.95, 0.2, None), (1.2, 0.2, False)],
+)
+def test_a_claimed_order_is_reached_as_far_as_it_is_known(order, margin, reached) -> None:
+    assert ObservedOrder(order, 1.2 * margin, margin).reaches(2.0) is reached
+
+
 @given(
     st.floats(0.0, 4.0), st.floats(0.0, 0.25), st.floats(0.5, 1.0), st.sampled_from([1.0, 1.5, 2.5])
 )

@@ -101,7 +101,7 @@ def _error_curves(
         start = errors[int(np.argmax(sizes))]
     else:
         line = error_line(sizes[fitted], errors[fitted])
-        told = order_text(line.observed.order, line.observed.half_width)
+        told = order_text(*line.observed.interval)
         ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
         curves = [
             _confidence_band(line, ends, series),
