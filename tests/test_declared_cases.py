@@ -184,4 +184,4 @@ def test_no_verdict_passes_with_wrong_or_missing_numbers(name: str) -> None:
             run = with_scalar_off(results[quantity.run], quantity.scalar, off)
             one = judge_quantity(quantity, case, results | {quantity.run: run})
             passed |= {key_of(one)} if one.status is Status.PASS else set()
-    assert {key for key in passed if key[1] not in NOT_OF_NUMBERS} == set()
+    assert {key for key in passed if key[0] not in NOT_OF_NUMBERS} == set()

@@ -79,7 +79,7 @@ def show(kind: str, name: str, *values: object) -> None:
 level = Level[sys.argv[1]]
 for case in choose(level):
     show("runs", case.name, case.runs)
-    show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
+    show("judged", case.name, case.quantities, case.orders, case.charts)
 for name, study in STUDIES.items():
     show("study", name, study.cases(Settings(level)))
 if level is Level.QUICK:

@@ -187,7 +187,6 @@ def lost(case: Case, reason: str) -> CaseOutcome:
         scenes=(),
         runs=(),
         verdicts=(without_result("all", f"the case has no outcome: {reason}", "case"),),
-        findings=(),
         charts=(),
         limits=case.limits,
     )

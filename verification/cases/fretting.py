@@ -35,7 +35,6 @@ from verification.judging.declared_case import (
     Falls,
     Observable,
     RefinementLevels,
-    Reported,
     Row,
     Within,
     at_stops,
@@ -94,7 +93,6 @@ from verification.quantities import (
     force_along_x,
     shear_of,
     shift_along_x,
-    slip_traction_angle,
     transverse_shear,
 )
 
@@ -450,42 +448,11 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     grid = square_grid(cells, 0.6e-3)
     run = ladder(problem, [Run(cells_label(cells), problem.scene, grid)])
 
-    def reported(
-        name: str, meaning: str, unit: str, read: Any, remark: str = "zero in the closed form"
-    ) -> Reported:
-        what = Observable(name, meaning, unit, lambda result, *_: float(read(result)), None)
-        return Reported(what, remark)
-
-    rows = (
-        Within(LARGEST_SHIFT_ERROR, 0.01, band),
-        Within(ENERGY_PER_CYCLE, 0.02, band),
-        reported(
-            "transverse_shear",
-            "largest |q_y| / µp₀ at the end of the first loading",
-            "",
-            lambda result: transverse_shear(result.steps[LOADED - 1], FRICTION),
-        ),
-        reported(
-            "largest_transverse_shear",
-            "largest |q_y| / µp₀ of any increment",
-            "",
-            lambda result: np.max([transverse_shear(i, FRICTION) for i in result.increments]),
-        ),
-        reported(
-            "slip_direction_deviation",
-            "largest angle between shear and x axis in the slip ring, end of the first loading",
-            "°",
-            lambda result: slip_traction_angle(result.steps[LOADED - 1], FRICTION),
-            "zero in the closed form: the angle between its slip and its traction would be of "
-            "this size",
-        ),
-        reported(
-            "shift_at_amplitude",
-            "shift at 0.9 µW over the closed form's, less one",
-            "",
-            lambda result: shift_along_x(result.steps[LOADED - 1]) / exact.end.shift - 1,
-            "the vector law makes the contact stiffer",
-        ),
+    across = error_norm(
+        "transverse_shear",
+        "largest |q_y| at the end of the first loading",
+        lambda result, *_: transverse_shear(result.steps[LOADED - 1], FRICTION),
+        "µp₀",
     )
 
     def drawn(results: Mapping[str, Any]) -> Any:
@@ -497,12 +464,14 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         "Two identical bodies of 420 GPa and ν = 0.3: a ball of 18 mm with its exact arc under 1 "
         "kN, µ = 0.1, T between ± 0.9 µW. For ν > 0 the closed form violates the direction law "
         "of friction in its slip annulus. It is therefore not the exact solution here: the "
-        "difference must be small and is reported.",
+        "difference must be small.",
         judged(
             replace(run, problem=replace(problem, uncertainty=0.05)),
-            (Within(LARGEST_SHEAR_ERROR, 0.05, band),),
+            (Within(LARGEST_SHEAR_ERROR, 0.05, band), Within(across, 0.05, band)),
         ),
-        judged(run, rows),
+        judged(
+            run, (Within(LARGEST_SHIFT_ERROR, 0.01, band), Within(ENERGY_PER_CYCLE, 0.02, band))
+        ),
         charts=(
             lambda results: loading_history_chart(drawn(results)),
             lambda results: tractions_chart(drawn(results), exact),
@@ -510,6 +479,9 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         ),
         limits=(
             "The closed form is not the solution of this problem; the ν = 0 loop judges accuracy.",
+            "It has no shear across the load. Here this reaches 0.04 µp₀ at the end of the first "
+            "loading and 0.15 µp₀ in the loop. Shear turns by up to 6° from the load in the "
+            "slip annulus, and the shift is 9e-4 smaller.",
         ),
         no_order="the closed form is approximate: its error does not fall with the cells",
         shows=("figure 1", "figure 2", "fretting loop", "p_H"),

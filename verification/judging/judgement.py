@@ -47,7 +47,6 @@ from verification.judging.outcome import (
     SOLVED,
     VIOLATION,
     CaseOutcome,
-    FindingRecord,
     OrderRecord,
     RunRecord,
     SceneRecord,
@@ -420,18 +419,6 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         scenes=_describe_scenes(case, results),
         runs=tuple(_run_record(r, case, results[r.label]) for r in case.runs if r.label in results),
         verdicts=(*failures, *_judge_case(case, results)),
-        findings=tuple(
-            FindingRecord(
-                name=f.name,
-                run=f.run,
-                meaning=f.meaning,
-                unit=f.unit,
-                value=finite(f.measure(results[f.run])),
-                remark=f.remark,
-            )
-            for f in case.findings
-            if f.run in results
-        ),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
         equations=case.equations,

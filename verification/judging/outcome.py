@@ -6,7 +6,7 @@ import math
 import sys
 from collections.abc import Iterator
 from enum import StrEnum
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -371,22 +371,6 @@ def _status_by_numbers(verdict: Verdict) -> Status:
     return status_of_difference(verdict.error, verdict.allowed, verdict.least)
 
 
-class FindingRecord(Description):
-    """Record of a number that a report shows with a remark and does not judge.
-
-    The number is null if it is not finite.
-    """
-
-    name: str
-    run: str
-    meaning: str
-    unit: str
-    value: float | None
-    remark: str
-    regression: Change | None = None
-    """Against the recorded value; null if the case has no baseline of this level."""
-
-
 class RunRecord(Description):
     """Record of one solve of a case: solver, discretisation, residual, and counts of work."""
 
@@ -445,7 +429,7 @@ class SceneRecord(Description):
 
 
 class CaseOutcome(Description):
-    """Record of a judged verification case: scenes, runs, verdicts, reported numbers and charts."""
+    """Record of a judged verification case: scenes, runs, verdicts and charts."""
 
     name: str
     title: str
@@ -453,7 +437,6 @@ class CaseOutcome(Description):
     scenes: tuple[SceneRecord, ...]
     runs: tuple[RunRecord, ...]
     verdicts: tuple[Verdict, ...]
-    findings: tuple[FindingRecord, ...]
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
     equations: tuple[str, ...] = ()
@@ -470,6 +453,14 @@ class CaseOutcome(Description):
 
     gone: tuple[Gone, ...] = ()
     """What was recorded and is not measured any more."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _leave_out_findings(cls, given: Any) -> Any:
+        """Leave out the numbers without a verdict that older records have."""
+        if not isinstance(given, dict):
+            return given
+        return {name: value for name, value in given.items() if name != "findings"}
 
     @model_validator(mode="after")
     def _names_runs_that_it_has(self) -> CaseOutcome:

@@ -235,5 +235,5 @@ def text_of(verdict: Verdict) -> str:
 
     Accepted tolerances are stored by this key.
     """
-    _, name, run, kind = key_of(verdict)
+    name, run, kind = key_of(verdict)
     return f"{name} [{run}] {kind}"
