@@ -21,8 +21,6 @@ FAST = (
     "led_histories",
     "subsurface_stress",
     "tilted_punch",
-    "worked_examples",
-    "written_files",
 )
 FAST_RUNS = [
     DefectRun(defect.name, case)

@@ -63,7 +63,7 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
 
 ROOT = Path(__file__).resolve().parents[1]
 # Of every kind: on a surface grid, on a section, and without a solve.
-RESUMED_CASES = ("hertz_approach_control", "fem_classical", "worked_examples")
+RESUMED_CASES = ("hertz_approach_control", "fem_classical", "layered_reference")
 KILLED = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})

@@ -98,10 +98,6 @@ MODULES = {
         "cross_check",
         "external_codes",
     ),
-    "worked_examples": (
-        "worked_examples",
-        "written_files",
-    ),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}
 CASES = tuple(MODULE_OF)
