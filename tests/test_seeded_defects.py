@@ -15,7 +15,6 @@ from verification.studies.seeded_defects import DefectRun, failed_verdicts
 QUICK = Settings(Level.QUICK)
 # Cases that take a fraction of a second. `test_declared_cases` solves them without a defect.
 FAST = (
-    "dissimilar_bodies",
     "hertz_approach_control",
     "layered_reference",
     "led_histories",

@@ -24,8 +24,6 @@ MODULES = {
         "hertz_point",
         "hertz_exact_sphere",
         "hertz_approach_control",
-        "hertz_unloading",
-        "dissimilar_bodies",
         "hertz_elliptical",
         "cone_contact",
         "flat_punch",
@@ -65,7 +63,6 @@ MODULES = {
     ),
     "contact_stiffness": ("contact_stiffness",),
     "histories": (
-        "load_paths",
         "coupled_history",
         "same_surface",
         "forced_effects",

@@ -91,7 +91,7 @@ def _half_record_written(whole: Any, self: Any, case: Any, record: Any) -> None:
         temporary.write_text(text[: len(text) // 2], encoding="utf-8")
 
 
-SEEN = ("dissimilar_bodies", "fem_hertz")
+SEEN = ("hertz_approach_control", "fem_hertz")
 PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 
 PLANTED = (
@@ -137,7 +137,7 @@ NO_RESULTS = (
     Defect(
         "record-truncated",
         "Half of the file with a finished case reaches the disk.",
-        ("dissimilar_bodies",),
+        ("hertz_approach_control",),
         _half_record_written,
     ),
 )

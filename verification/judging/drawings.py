@@ -317,7 +317,6 @@ def convergence(
     title: str,
     caption: str,
     also: Sequence[Observable] = (),
-    beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
     """Return a function that draws relative errors of observables over the cell or element side h.
 
@@ -328,19 +327,16 @@ def convergence(
     rows    rows of the case; those of type Falls have an expected slope
     name    file name of the chart
     also    observables whose errors are drawn without an expected slope
-    beside  further refinement levels with equal sizes, by the name of their curves
     """
     cells = isinstance(ladder.judged, Run)
     unit = ladder.problem.radius if cells else 1.0
     expected = {row.what.label: row for row in rows if isinstance(row, Falls)}
-    ladders = {"": ladder} | {f", {of}": other for of, other in (beside or {}).items()}
     errors = (*(row.what for row in expected.values()), *also)
 
     def draw(results: Mapping[str, Any]) -> Chart:
         found = {
-            f"{one.label}{of}": [one.error(other.problem)(results[run]) for run in other.levels]
+            one.label: [one.error(ladder.problem)(results[run]) for run in ladder.levels]
             for one in errors
-            for of, other in ladders.items()
         }
         return convergence_chart(
             name,
