@@ -26,7 +26,6 @@ MODULES = {
         "hertz_approach_control",
         "hertz_elliptical",
         "cone_contact",
-        "flat_punch",
         "tilted_punch",
         "eccentric_ball",
         "fem_hertz",

@@ -31,10 +31,8 @@ from verification.judging.declared_case import (
     SQUARE_ROOTS,
     STICK_RADIUS,
     WORK,
-    Drawing,
     Falls,
     Observable,
-    RefinementLevels,
     Row,
     Within,
     at_stops,
@@ -54,7 +52,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.drawings import ProfileLabels, Section, convergence, radial_chart
+from verification.judging.drawings import Section, convergence
 from verification.judging.field_errors import away_from_edges
 from verification.observed.ring_errors import judged_within
 from verification.problems.cattaneo_mindlin import (
@@ -545,34 +543,6 @@ OF_LOOP = (
 )
 
 
-def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption: str) -> Drawing:
-    """Return a function that draws the shear over the radius at the end of a step of the fretting
-    loop.
-
-    The function receives the results of a case by run label, and draws the finite element shear and
-    the closed form.
-
-    of       refinement levels, of which the judged run is drawn
-    step     number of the load step, from 1
-    name     file name of the chart
-    when     description of the load at the end of the step
-    caption  caption of the chart
-    """
-
-    def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[of.judged.label]
-        end = result.steps[step - 1]
-        along = LOOP.ends[-1].along(result)
-        *_, exact = (known for found, known in along if found.step == step)
-        a, limit = HERTZ.contact_radius, LOOP.scale(OVER_LIMIT)
-        r = np.linspace(0.0, a, 120)
-        labels = ProfileLabels(name, f"Shear over the radius, {when}", caption, "q / µp₀", "r / a")
-        known = (r, exact.shear(r))
-        return radial_chart(labels, a, limit, end, end.shear_along_load, known)
-
-    return draw
-
-
 def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """Create the verification case of partial slip and of a fretting loop by finite elements.
 
@@ -656,30 +626,7 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
         judged(mesh, (*OF_LOOP, stick_of_loop)),
         judged(springs, OF_LOOP),
         judged(shearing, (*rows, *falls) if orders else rows),
-        charts=(
-            *(
-                _loop_profile(
-                    mesh,
-                    step,
-                    f"fem_partial_slip_{name}",
-                    name,
-                    f"Shear by finite elements and by the closed form at {force} µW, and their "
-                    "difference.",
-                )
-                for step, name, force in (
-                    (LOADED, "loaded", "0.9"),
-                    (LOADED + 1, "reversed", "-0.9"),
-                )
-            ),
-            _loop_profile(
-                springs,
-                LOADED,
-                "fem_partial_slip_penalty",
-                "at 0.9 µW",
-                "Shear at the Gauss points, the closed form, and their difference.",
-            ),
-            *(of_orders if orders else ()),
-        ),
+        charts=of_orders if orders else (),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
         shows=("finite elements", "load history", "penalty"),

@@ -497,44 +497,6 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     )
 
 
-def flat_punch(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a flat punch on a half-space, whose pressure is infinite at
-    the rim.
-
-    Approach and central pressure on cells are compared with the closed form.
-    """
-    cells = refinement(32, 128 if level is Level.QUICK else 256)
-    grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
-    rows = (
-        Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
-        Within(
-            CENTRAL_PRESSURE,
-            part_of_side(1.0),
-            f"one cell over the radius: pressure goes as 1/radius², and {STAIRCASE}",
-        ),
-    )
-    return case(
-        "flat_punch",
-        "Flat punch on a half-space",
-        "A flat-ended cylinder of 0.4 mm radius under 1 kN. Force and approach are proportional; "
-        "the pressure is singular at the rim, as 1/√(distance).",
-        judged(grids, rows),
-        charts=(
-            convergence(
-                grids,
-                (Falls(APPROACH, 1.0, STAIRCASE),),
-                "flat_punch_convergence",
-                "Convergence of the flat punch",
-                "Relative errors against cell side, with a line of slope one.",
-                also=(CENTRAL_PRESSURE,),
-            ),
-        ),
-        no_order="first order in the cell side with scatter: the division of cells by the circle "
-        "differs from grid to grid",
-        shows=("known solutions", "shapes"),
-    )
-
-
 # Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
 ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
@@ -641,8 +603,9 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                 "linearity of a contact that does not change",
             ),
         ),
-        no_order="first order in the cell side with scatter, as in flat_punch",
-        shows=("(1)", "(3)", "tilt and torsion"),
+        no_order="first order in the cell side with scatter: the division of cells by the circle "
+        "differs from grid to grid",
+        shows=("(1)", "(3)", "known solutions", "shapes", "tilt and torsion"),
     )
 
 
@@ -799,7 +762,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_classical",
         "Finite elements: cone and flat punch",
-        "The scenes of cone_contact and flat_punch by finite elements. Below the punch the "
+        "The cone of cone_contact and a flat punch by finite elements. Below the punch the "
         "outermost hat function of the pressure is half a hat that ends at the rim.",
         judged(cones, of_cone),
         judged(punches, of_punch),

@@ -781,14 +781,12 @@ class Falls:
     expected  expected order
     because   reason for the expected order
     not_yet   allowance for levels that are not asymptotic
-    meaning   description; default: that of the observable
     """
 
     what: Observable
     expected: float
     because: str
     not_yet: NotYetAsymptotic | None = None
-    meaning: str = ""
 
 
 Row = Within | Refined | Falls
@@ -974,7 +972,7 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
     return Order(
         name=f"order_of_{what.name}",
         of=what.of,
-        meaning=row.meaning or what.said(ladder.judged.words),
+        meaning=what.said(ladder.judged.words),
         levels=ladder.levels,
         error=what.error(ladder.problem),
         expected=row.expected,

@@ -25,9 +25,10 @@ from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacke
 from verification.judging.case import Run
 from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
 from verification.observed.ring_errors import SHOWN, at_radii
+from verification.problems.problem import Problem
 
 if TYPE_CHECKING:
-    from fem_reference import Increment
+    pass
 
 
 Errors = Mapping[str, Sequence[float]]
@@ -174,57 +175,6 @@ class Section:
         return np.asarray(field[self._plotted_cells, self._section_row])
 
 
-@dataclass(frozen=True)
-class ProfileLabels:
-    """Texts of a profile chart: identifier, title, caption and axis labels."""
-
-    name: str
-    title: str
-    caption: str
-    y_label: str
-    x_label: str = "x / a"
-
-
-def _with_difference(
-    labels: ProfileLabels, profiles: Sequence[Curve], differences: Sequence[Curve]
-) -> Chart:
-    """Draw profiles, and computed minus exact values in a panel below."""
-    above = Panel(x_label="", y_label=labels.y_label, curves=tuple(profiles), height=2.6)
-    below = Panel(x_label=labels.x_label, y_label=f"Δ{labels.y_label}", curves=tuple(differences))
-    return stacked(labels.name, labels.title, labels.caption, above, below)
-
-
-def radial_chart(
-    labels: ProfileLabels,
-    radius: float,
-    scale: float,
-    increment: Increment,
-    traction: Field,
-    exact: tuple[Field, Field],
-) -> Chart:
-    """Create a chart of a finite element traction over the radius, with its reference.
-
-    The upper panel shows the traction and, in grey, the reference. The lower panel shows their
-    difference.
-
-    labels     texts of the chart
-    radius     contact radius, the unit of the abscissa [length]
-    scale      unit of the ordinate [force/length²]
-    increment  increment that the traction belongs to
-    traction   values at the rings of the increment [force/length²]
-    exact      radii [length] and values [force/length²] of the reference
-    """
-    shown = increment.radii <= SHOWN * radius
-    r, found = increment.radii[shown] / radius, traction[shown] / scale
-    known_r, known = exact[0] / radius, exact[1] / scale
-    difference = at_radii(increment, traction, exact[0]) / scale - known
-    profiles = (
-        curve("reference", known_r, known, Look.REFERENCE),
-        curve("finite elements", r, found, Look.COMPUTED),
-    )
-    return _with_difference(labels, profiles, (curve("", known_r, difference, Look.COMPUTED),))
-
-
 # Number of points of an exact profile in a chart.
 POINTS = 120
 
@@ -249,6 +199,26 @@ class Drawn:
 PRESSURE = Drawn(lambda end: end.pressure, lambda exact: exact.pressure)
 
 
+# Coordinates and computed field, coordinates and exact field, and their difference at the latter.
+Profile = tuple[tuple[Field, Field], tuple[Field, Field], Field]
+
+
+def _along_section(result: Any, problem: Problem, one: Drawn) -> Profile:
+    section = Section(result.grid, problem.radius)
+    found = section.of(one.found(result.steps[one.step]))
+    exact = one.exact(problem.ends[one.step])
+    known = problem.on_surface(exact, section.x, section.y)
+    return (section.x, found), (section.x, known), found - known
+
+
+def _over_rings(result: Any, problem: Problem, one: Drawn) -> Profile:
+    end, answer = result.steps[one.step], problem.ends[one.step]
+    shown, found = end.radii <= SHOWN * problem.radius, one.found(end)
+    r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))
+    known = one.exact(answer)(r)
+    return (end.radii[shown], found[shown]), (r, known), at_radii(end, found, r) - known
+
+
 def profile(
     ladder: RefinementLevels,
     name: str,
@@ -262,7 +232,7 @@ def profile(
     fields.
 
     The function receives the results of a case by run label. On cells the chart shows the row of
-    cells next to y = 0. On rings it shows one field over the radius.
+    cells next to y = 0, on finite elements the values over the radius.
 
     ladder   refinement levels, of which the judged run is drawn
     name     file name of the chart
@@ -273,39 +243,23 @@ def profile(
     problem, run = ladder.problem, ladder.judged
     fields = drawn or (PRESSURE,)
 
+    on_cells = isinstance(run, Run)
+    read = _along_section if on_cells else _over_rings
+
     def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[run.label]
-        if isinstance(run, Run):
-            section = Section(result.grid, problem.radius)
-            x = section.x / problem.radius
-            found = [section.of(one.found(result.steps[one.step])) / unit for one in fields]
-            known = [
-                problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y) / unit
-                for one in fields
-            ]
-            profiles = [
-                curve("closed form" if n == 0 else "", x, exact, Look.REFERENCE)
-                for n, exact in enumerate(known)
-            ]
-            differences = []
-            for n, (one, computed) in enumerate(zip(fields, found, strict=True)):
-                profiles.append(curve(one.label, x, computed, Look.COMPUTED, n))
-                differences.append(curve("", x, computed - known[n], Look.COMPUTED, n))
-            labels = ProfileLabels(name, title, caption, y_label)
-            return _with_difference(labels, profiles, differences)
-        (one,) = fields
-        end, answer = result.steps[one.step], problem.ends[one.step]
-        r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))
-        exact = one.exact(answer)(r)
-        labels = ProfileLabels(name, title, caption, y_label, "r / a")
-        return radial_chart(
-            labels,
-            problem.radius,
-            unit,
-            end,
-            one.found(end),
-            (r, exact),
-        )
+        references, profiles, differences = [], [], []
+        for n, one in enumerate(fields):
+            (x, found), (places, known), off = read(results[run.label], problem, one)
+            x, places = x / problem.radius, places / problem.radius
+            label = ("closed form" if on_cells else "reference") if n == 0 else ""
+            references.append(curve(label, places, known / unit, Look.REFERENCE))
+            label = one.label if on_cells else "finite elements"
+            profiles.append(curve(label, x, found / unit, Look.COMPUTED, n))
+            differences.append(curve("", places, off / unit, Look.COMPUTED, n))
+        above = Panel(x_label="", y_label=y_label, curves=(*references, *profiles), height=2.6)
+        across = "x / a" if on_cells else "r / a"
+        below = Panel(x_label=across, y_label=f"Δ{y_label}", curves=tuple(differences))
+        return stacked(name, title, caption, above, below)
 
     return draw
 
