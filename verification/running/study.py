@@ -183,7 +183,7 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
         FINDINGS: [_csv_line(row) for row in findings],
         SECONDS: [dict(zip((CASE, "seconds", "repeats"), line, strict=True)) for line in clock],
     }
-    return {name: _csv_text(lines) for name, lines in files.items() if lines}
+    return {name: csv_text(lines) for name, lines in files.items() if lines}
 
 
 def _rows_by_case(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
@@ -208,8 +208,8 @@ def _csv_line(row: Row) -> Cells:
     }
 
 
-def _csv_text(lines: Iterable[Cells]) -> str:
-    """Write the lines of a table of a study as CSV text, with a column for every name in any line.
+def csv_text(lines: Iterable[Cells]) -> str:
+    """Write the lines of a table as CSV text, with a column for every name in any line.
 
     lines  cells of each line by column name
     """
