@@ -108,7 +108,7 @@ def twisted(torque: float) -> TorsionalPartialSlip:
 
 
 TORQUE = 0.5 * twisted(0.0).sliding_moment
-PUNCH = FlatPunchContact.under_load(W, 0.4e-3, E)
+PUNCH = FlatPunchContact(0.4e-3, E, W)
 CONE = ConeContact.under_load(W, 0.02, E)
 LOOP = [
     f'tangential_force = ["{force} N", 0]\nincrements = {count}'

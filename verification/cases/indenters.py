@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_scene import Body, FlatPunch, LoadStep, Sphere
-from verification.closed_forms.flat_punch import TiltedPunch
+from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import SphereContact
 from verification.judging.case import (
     Case,
@@ -499,7 +499,7 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
 
 # Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
 ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
-TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
+TILTED = FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
 def _stiffness_difference(one: Any, other: Any) -> float:

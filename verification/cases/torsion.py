@@ -27,7 +27,8 @@ from contact_scene import (
 from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
-from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
+from verification.closed_forms.coated_indentation import LayeredSurface
+from verification.closed_forms.torsion import CoatedTorsion, one_layer
 from verification.judging.case import (
     OVER_ANGLES,
     Case,
@@ -276,9 +277,9 @@ def twisted_coated() -> Problem:
     The answer is the solution of a Fredholm integral equation for each torque.
     """
     normal = exact_contact(BODY, BALL)
-    surface = TorsionalSurface(
+    surface = LayeredSurface(
         lambda k: 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus),
-        COATING.shear_modulus / 2,
+        COATING.shear_modulus,
         LAYERS[0].thickness,
     )
     a = normal.contact_radius

@@ -46,7 +46,7 @@ from verification.challenge.requested_quantities import (
     round_traction,
 )
 from verification.closed_forms.cattaneo_mindlin import TangentialHistory
-from verification.closed_forms.flat_punch import FlatPunchContact, TiltedPunch
+from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.huber_stress import hamilton_stress
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
@@ -432,7 +432,7 @@ def tilted_punch() -> Challenge:
         4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE
     )  # of the normal force, per unit slope
     force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
-    exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
+    exact = FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     return _tilted_challenge(
         "tilted_punch",

@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
+from verification.closed_forms.coated_indentation import LayeredSurface
 from verification.closed_forms.quadrature import composite_gauss, unit_gauss
 
 ORDER = 120
@@ -226,29 +227,6 @@ HALVINGS = 20
 LEAST_ORDER = 80
 
 
-@dataclass(frozen=True)
-class TorsionalSurface:
-    """Represent the torsional compliance of the surfaces of two coated bodies, in wavenumber space.
-
-    compliance         F(k) of both bodies together [length³/force]: circumferential displacement
-                       per unit shear of wavenumber k; a vectorised function
-    torsional_modulus  reciprocal of the sum of 1/G of the outermost materials [force/length²]
-    thickness          thickness of the thinner outermost layer [length]
-    """
-
-    compliance: Callable[[Array], Array]
-    torsional_modulus: float
-    thickness: float
-
-    def excess(self, k: Array) -> Array:
-        """Compute the relative change of the torsional compliance by the layers at wavenumbers k
-        [1].
-
-        The change X(k) - 1 = k G F(k) - 1 is relative to a half-space of the outermost material.
-        """
-        return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
-
-
 def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
     """Compute the torsional compliance F(k) of one layer that is bonded to a half-space
     [length³/force].
@@ -274,14 +252,15 @@ class CoatedTorsion:
     A central disc sticks and rotates as a rigid body. In the annulus around it the shear is the
     friction limit.
 
-    surface         torsional compliance of the two bodies
+    surface         torsional compliance of the two bodies; its modulus is 2G, with the reciprocal G
+                    of the sum of 1/G of the outermost materials
     contact_radius  contact radius a > 0 [length]
     limit           friction limit µp as a function of the distance from the axis [force/length²],
                     falling like a square root towards r = a
     stick_radius    stick radius c, 0.1 a <= c < a [length]
     """
 
-    surface: TorsionalSurface
+    surface: LayeredSurface
     contact_radius: float
     limit: Callable[[Array], Array]
     stick_radius: float
@@ -297,7 +276,7 @@ class CoatedTorsion:
     def under_torque(
         cls,
         torque: float,
-        surface: TorsionalSurface,
+        surface: LayeredSurface,
         contact_radius: float,
         limit: Callable[[Array], Array],
     ) -> CoatedTorsion:
@@ -357,7 +336,7 @@ class CoatedTorsion:
         The integral equation is solved once for unit twist and once for the shear of the slip
         annulus alone. Continuity of h at the edge of the stick disc determines φ.
         """
-        G, c = self.surface.torsional_modulus, self.stick_radius
+        G, c = self.surface.modulus / 2, self.stick_radius
         s, weights = self._quadrature_nodes
         order = self._quadrature_order
         stick, slip = slice(order), slice(order, None)

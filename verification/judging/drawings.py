@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -27,62 +27,15 @@ from verification.judging.declared_case import Drawing, Falls, Observable, Refin
 from verification.observed.ring_errors import SHOWN, at_radii
 from verification.problems.problem import Problem
 
-if TYPE_CHECKING:
-    pass
-
-
-Errors = Mapping[str, Sequence[float]]
 BELOW = 0.4  # lines of expected slopes run under the data, by this factor
-# levels that a line is drawn through
-LEAST = 4
-LEAST_JUDGED = 3
+LEAST = 4  # levels that a line is fitted to
 ALONG = 9  # points along a band, which is curved
-
-
-def convergence_chart(
-    name: str,
-    title: str,
-    caption: str,
-    spacings: Sequence[float],
-    errors: Errors,
-    slopes: Mapping[str, float],
-    x_label: str = "cell side / contact radius",
-    judged: Mapping[str, int] | None = None,
-) -> Chart:
-    """Create a chart of errors against cell size, with fitted lines and lines of the expected
-    orders.
-
-    spacings  cell sides over the contact radius (solves,); errors of equal sides are replaced by
-              their
-              root mean square
-    errors    relative errors (solves,) at these cell sides, of either sign, by name of the quantity
-    slopes    expected convergence order, by name of the quantity
-    judged    number of finest levels to which the line of a quantity is fitted, by name, because
-              the
-              order is judged on these; no line is drawn for fewer than 3 levels. Without an entry,
-    all
-              levels are fitted if there are at least 4
-    """
-    curves: list[Curve] = []
-    for series, (label, values) in enumerate(errors.items()):
-        sizes, root_mean_squares = by_size(spacings, values)
-        count = (judged or {}).get(label)
-        if count is None:
-            count = len(sizes) if len(sizes) >= LEAST else 0
-        curves += _error_curves(label, sizes, root_mean_squares, count, slopes.get(label), series)
-    panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
-    legend = (
-        "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
-        "lines. Dashed below: the expected slopes."
-    )
-    return stacked(name, title, f"{caption} {legend}", panel)
 
 
 def _error_curves(
     label: str,
     sizes: list[float],
     errors: list[float],
-    count: int,
     expected: float | None,
     series: int,
 ) -> list[Curve]:
@@ -91,19 +44,16 @@ def _error_curves(
     label     name of the quantity, for the legend
     sizes     cell sides over the contact radius
     errors    magnitudes of the relative error at these sizes
-    count     number of finest levels to which the line is fitted; with fewer than 3, points only
     expected  expected convergence order; None for no slope line
     series    number that determines the colour
     """
     ends = np.array([max(sizes), min(sizes)])
-    fitted = slice(len(sizes) - count, None)
-    if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
+    if len(sizes) < LEAST or min(errors) <= 0:
         curves = [curve(label, sizes, errors, Look.POINTS, series)]
         start = errors[int(np.argmax(sizes))]
     else:
-        line = error_line(sizes[fitted], errors[fitted])
+        line = error_line(sizes, errors)
         told = order_text(*line.observed.interval)
-        ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
         curves = [
             _confidence_band(line, ends, series),
             curve("", ends, line.at(ends), Look.FITTED, series),
@@ -284,22 +234,26 @@ def convergence(
     """
     cells = isinstance(ladder.judged, Run)
     unit = ladder.problem.radius if cells else 1.0
-    expected = {row.what.label: row for row in rows if isinstance(row, Falls)}
-    errors = (*(row.what for row in expected.values()), *also)
+    spacings = [run.spacing / unit for run in ladder.followed]
+    expected = {row.what: row.expected for row in rows if isinstance(row, Falls)}
 
     def draw(results: Mapping[str, Any]) -> Chart:
-        found = {
-            one.label: [one.error(ladder.problem)(results[run]) for run in ladder.levels]
-            for one in errors
-        }
-        return convergence_chart(
-            name,
-            title,
-            caption,
-            [run.spacing / unit for run in ladder.followed],
-            found,
-            {label: row.expected for label, row in expected.items()},
-            f"{'cell' if cells else 'element'} side / contact radius",
+        curves: list[Curve] = []
+        for series, one in enumerate((*expected, *also)):
+            error = one.error(ladder.problem)
+            # Errors of equal sizes are replaced by their root mean square.
+            sizes, means = by_size(spacings, [error(results[run]) for run in ladder.levels])
+            curves += _error_curves(one.label, sizes, means, expected.get(one), series)
+        panel = Panel(
+            x_label=f"{'cell' if cells else 'element'} side / contact radius",
+            y_label="relative error",
+            curves=tuple(curves),
+            logarithmic=True,
         )
+        legend = (
+            "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of "
+            "the lines. Dashed below: the expected slopes."
+        )
+        return stacked(name, title, f"{caption} {legend}", panel)
 
     return draw
