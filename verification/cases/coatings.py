@@ -130,8 +130,7 @@ def coated_paraboloid(level: Level = Level.QUICK) -> Case:
     """
     most = 256 * 2**level
     cells = refinement(32, most)
-    # Grids below 128 cells have no accuracy target; they show the errors by refinement.
-    grids = dict.fromkeys(COATINGS, (32, 46, 64, 90, 128, 256)) | {STUDIED: cells}
+    grids = dict.fromkeys(COATINGS, (128, 256)) | {STUDIED: cells}
     ladders = {
         ratio: on_cells(COATINGS[ratio], some, of=f"E1/E2 = {ratio:g}")
         for ratio, some in grids.items()
