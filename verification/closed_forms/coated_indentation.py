@@ -191,7 +191,7 @@ def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> Lay
 
 
 def _solve_fredholm(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
-    k, weight = _wavenumbers(a, surface.thickness)
+    k, weight = wavenumbers(a, surface.thickness)
     weighted = weight * surface.excess(k)
     s, weights = unit_gauss(_quadrature_order(a, surface.thickness))
     s, weights = a * s, a * weights
@@ -224,7 +224,7 @@ def _quadrature_order(a: float, thickness: float) -> int:
     return 50 + int(4 * a / thickness)
 
 
-def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
+def wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
     """Return nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
 
     The rule extends to 24 over the layer thickness, where the effect of the layers has vanished.

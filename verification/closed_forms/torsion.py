@@ -32,8 +32,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
-from verification.closed_forms.coated_indentation import LayeredSurface
-from verification.closed_forms.quadrature import composite_gauss, unit_gauss
+from verification.closed_forms.coated_indentation import LayeredSurface, wavenumbers
+from verification.closed_forms.quadrature import unit_gauss
 
 ORDER = 120
 
@@ -218,12 +218,6 @@ def _reduced_moment(ratio: float) -> float:
 
 Array = NDArray[np.float64]
 
-# exp(-2 k h) is below 1e-20 from here on.
-REACH = 24.0
-PANEL_POINTS = 16
-PANEL_PHASE = 6.0
-# Number of halvings of the panel width towards k = 0, sufficient for modulus ratios up to 1e5.
-HALVINGS = 20
 LEAST_ORDER = 80
 
 
@@ -355,7 +349,7 @@ class CoatedTorsion:
 
         s, t  positions between 0 and the contact radius [length]
         """
-        k, weight = self._wavenumbers
+        k, weight = wavenumbers(self.contact_radius, self.surface.thickness)
         weighted = weight * self.surface.excess(k)
         return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
 
@@ -386,16 +380,3 @@ class CoatedTorsion:
         a, c = self.contact_radius, self.stick_radius
         v, weights = unit_gauss(self._quadrature_order)
         return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
-
-    @cached_property
-    def _wavenumbers(self) -> tuple[Array, Array]:
-        """Nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
-
-        The rule extends to 24 over the layer thickness, where the effect of the layers has
-        vanished.
-        """
-        limit = REACH / self.surface.thickness
-        step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
-        fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)
-        bounds = np.concatenate([[0.0], fine, np.arange(step, limit, step), [limit]])
-        return composite_gauss(bounds, PANEL_POINTS)
