@@ -472,16 +472,14 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
     coated_ball = Paraboloid(radius=RADIUS, material=SUBSTRATE, layers=(one_film,))
     way = (pressing(), *(tangential_step(part, increments=2) for part in (0.9, -0.9)))
     scenes = {
-        "frictionless": pressed(
-            "The paper's ball without friction", rigid_ball(), Body(material=SUBSTRATE)
-        ),
+        "frictionless": pressed("The paper's ball without friction", rigid_ball(), SUBSTRATE),
         "frictionless coated": pressed(
             "The paper's ball on a coating, without friction", rigid_ball(), FILMED
         ),
         **{
             f"{name} sheared": pressed(title, ball, body, *way, friction=FRICTION)
             for name, title, ball, body in (
-                ("alike bodies", "Two alike bodies", paraboloid(STEEL), Body(material=STEEL)),
+                ("alike bodies", "Two alike bodies", paraboloid(STEEL), STEEL),
                 ("alike coated bodies", "Two alike coated bodies", coated_ball, FILMED),
                 ("rigid ball on coating", "The paper's ball on a coating", rigid_ball(), FILMED),
             )

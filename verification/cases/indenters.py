@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_scene import Body, FlatPunch, LoadStep, Sphere
+from contact_scene import FlatPunch, LoadStep, Sphere
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import SphereContact
 from verification.judging.case import (
@@ -91,7 +91,6 @@ from verification.problems.problem import (
     Problem,
     Reference,
     ReferenceKind,
-    frictionless,
     paraboloid,
     pressed,
     pressing,
@@ -203,7 +202,7 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     """
     ball, load = Sphere(radius=RADIUS, material=STEEL), pressing()
     problem = Problem(
-        frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
+        pressed("Ball with its exact arc on a half-space", ball, STEEL, load),
         (ARC,),
         HERTZ.contact_radius,
         "Sneddon 1965, arc of a circle, by Gauss quadrature",
@@ -534,7 +533,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
-        frictionless(title, punch, STEEL, step)
+        pressed(title, punch, STEEL, step)
         for title, step in {
             "Flat punch pressed beside its axis": LoadStep(
                 normal_force=NORMAL_FORCE,
@@ -651,8 +650,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
         increments=increments,
     )
-    steel = (paraboloid(STEEL), Body(material=STEEL))
-    unlike = (rigid_ball(), Body(material=SUBSTRATE))
+    steel, unlike = (paraboloid(STEEL), STEEL), (rigid_ball(), SUBSTRATE)
     runs = tuple(
         Run(label, pressed(title, *bodies, step, friction=FRICTION), grid)
         for label, title, bodies, step in (

@@ -17,7 +17,6 @@ from scipy.interpolate import CubicSpline
 from contact_scene import (
     RIGID,
     Body,
-    CoulombFriction,
     FlatPunch,
     IsotropicMaterial,
     Layer,
@@ -85,7 +84,6 @@ from verification.problems.problem import (
     STEEL,
     Problem,
     frictional,
-    frictionless,
     half_space,
     paraboloid,
     partial_slip,
@@ -346,12 +344,13 @@ def sliding_stress() -> Challenge:
 
     The surface tractions are the Hertz pressure, and a shear along x of µ times this pressure.
     """
-    scene = Scene(
-        title="Ball that slides on a half-space",
-        indenter=paraboloid(STEEL),
-        body=Body(material=STEEL),
-        friction=CoulombFriction(coefficient=SLIDING),
-        loading=(pressing(1), LoadStep(tangential_shift=(SLID, 0.0), increments=1)),
+    scene = pressed(
+        "Ball that slides on a half-space",
+        paraboloid(STEEL),
+        STEEL,
+        pressing(1),
+        LoadStep(tangential_shift=(SLID, 0.0), increments=1),
+        friction=SLIDING,
     )
     p0 = HERTZ.peak_pressure
     x, y, z = PLACES.T
@@ -476,7 +475,7 @@ def _tilted_challenge(
     values: tuple[AskedValue, ...],
 ) -> Challenge:
     step = LoadStep(normal_force=NORMAL_FORCE, tilt=tilt)
-    scene = frictionless(title, indenter, STEEL, step)
+    scene = pressed(title, indenter, STEEL, step)
     largest = NORMAL_FORCE * max(force_at), "the larger moment"
     moments = (
         AskedValue(f"moment_{axis}", 1, NORMAL_FORCE * at, *largest, Grade.C)
