@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, Self, TypeVar
+from typing import Any, Protocol, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -81,18 +81,13 @@ class TypedRow(Description):
     and booleans become `counters`, other numbers become `measures`.
     """
 
-    PARAMETERS: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields that are stored as parameters."""
-
     def row(self) -> Row:
         """Convert the object with typed values to a `Row`, the form in which a study stores its
         rows."""
         values = self.model_dump(mode="json")
-        parameters = {name: values.pop(name) for name in self.PARAMETERS}
         words = {name: value for name, value in values.items() if isinstance(value, str)}
         counters = {name: int(value) for name, value in values.items() if isinstance(value, int)}
         return Row(
-            parameters=parameters,
             measures={n: v for n, v in values.items() if n not in words and n not in counters},
             counters=counters,
             words=words,
