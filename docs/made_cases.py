@@ -54,9 +54,6 @@ def page(case: Case, level: str, numbers: Mapping[str, Any]) -> str:
     ]
     if numbers:
         parts += ["## What came out\n", _measured(level, numbers)]
-    if case.findings:
-        found = [(_cell(f.meaning), _cell(f.remark)) for f in case.findings]
-        parts += ["## Reported, not judged\n", table(("number", "what it means"), found)]
     if case.limits:
         parts += [
             "## What this case does not show\n",

@@ -99,7 +99,6 @@ def case(
         problem=text,
         scenes=(SceneRecord(title=text, lines=(("body", text),), effects=effects),),
         runs=(run,),
-        findings=(),
         limits=(text,),
         charts=(chart(f"{name}_chart", text),) if drawn else (),
         verdicts=tuple(verdict(n, *pair, run.label) for n, pair in values.items()),

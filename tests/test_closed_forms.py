@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 
 from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip
-from verification.closed_forms.flat_punch import TiltedPunch
+from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 from verification.closed_forms.torsion import StuckTorsion
 
@@ -65,7 +65,7 @@ def test_the_shear_of_stuck_torsion_carries_the_torque():
 
 def test_pressure_of_a_tilted_punch_carries_force_and_moments():
     at = np.array([0.1, -0.15])
-    state = TiltedPunch(0.9, 1.9, 1.3, tuple(at))
+    state = FlatPunchContact(0.9, 1.9, 1.3, tuple(at))
     # r = a sin t: the root at the rim cancels.
     t = (np.arange(64) + 0.5)[:, None] * np.pi / 128
     phi = (np.arange(64) + 0.5) * np.pi / 32

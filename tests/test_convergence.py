@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 from functools import partial
+from math import hypot, log, pi, sqrt, tan
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,7 +20,12 @@ from verification.convergence.observed_order import (
     numerical_uncertainty,
     observed_order,
     refined_value,
+    richardson,
 )
+from verification.judging.case import Case, Derived, Quantity
+from verification.judging.judgement import judge_quantity
+from verification.judging.outcome import failure_text, uncertainty_text
+from verification.problems.problem import Reference, ReferenceKind
 
 Array = NDArray[Any]
 SIZES = 0.25 * 2.0 ** -np.arange(6)
@@ -84,6 +91,14 @@ def test_an_order_is_kept_as_far_as_it_is_known(
 ) -> None:
     """A wider interval never turns what failed into a pass."""
     assert ObservedOrder(order, half_width, 0.8 * half_width).keeps(promised, allowance) is kept
+
+
+@pytest.mark.parametrize(
+    ("order", "margin", "reached"),
+    [(1.95, 0.02, True), (3.0, 0.6, True), (1.85, 0.2, None), (1.95, 0.2, None), (1.2, 0.2, False)],
+)
+def test_a_claimed_order_is_reached_as_far_as_it_is_known(order, margin, reached) -> None:
+    assert ObservedOrder(order, 1.2 * margin, margin).reaches(2.0) is reached
 
 
 @given(
@@ -196,3 +211,55 @@ def test_uncertainty_covers_an_error_that_has_no_order_on_the_coarser_levels() -
 def test_too_few_levels_are_refused(fit) -> None:
     with pytest.raises(ValueError, match="at least 3"):
         fit(LEVELS[:2], LEVELS[:2])
+
+
+# Worked by hand: values a + c h + ε (1, -6, 8) at h = 1, 2, 4. The deviation is orthogonal to the
+# line fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 + 8/4 = 0; its weighted squares sum to
+# (1 + 9 + 4) ε².
+THREE_LEVELS = np.array([1.0, 2.0, 4.0])
+EPSILON = 0.4 / sqrt(14)
+THREE_VALUES = 5.0 + 0.3 * THREE_LEVELS + EPSILON * np.array([1.0, -6.0, 8.0])
+
+
+def test_a_derived_tolerance_and_its_printed_numbers_are_those_by_hand() -> None:
+    """u_num = √(c² + s²) = 0.5 by s² = 14 ε² / (3 - 2); with u_ref = 1.2 it is 1.3, and U twice."""
+    runs: Any = tuple(
+        SimpleNamespace(label=f"h = {h:g}", spacing=h, value=float(value))
+        for h, value in zip(THREE_LEVELS, THREE_VALUES, strict=True)
+    )
+    reference = Reference(runs[0].value - 5.2, ReferenceKind.CLOSED_FORM, "by hand", 1.2)
+    quantity = Quantity(
+        "value",
+        "a value",
+        "",
+        runs[0].label,
+        lambda run: float(run.value),
+        reference,
+        Derived(tuple(run.label for run in reversed(runs)), 1.0, 1e9, "by hand"),
+        scale=2.0,
+    )
+    case = Case("by_hand", "", "", runs, (quantity,))
+    found = judge_quantity(quantity, case, {run.label: run for run in runs})
+    assert found.allowed * found.scale == pytest.approx(2.6)
+    assert "± 2.6 (2 U)" in failure_text(found)
+    assert uncertainty_text(found) == "± 0.6, "
+
+
+def test_the_limit_of_four_levels_and_its_uncertainty_are_those_by_hand() -> None:
+    """The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
+    element of the inverse of [[Σ1/h², Σ1/h], [Σ1/h, 4]] = [[85/64, 15/8], [15/8, 4]]."""
+    limit, uncertainty = richardson(np.append(THREE_LEVELS, 8.0), np.append(THREE_VALUES, 7.4), 1.0)
+    assert limit == pytest.approx(5.0)
+    assert uncertainty == pytest.approx(EPSILON * hypot(sqrt(7 * 256 / 115), 8))
+
+
+def test_intervals_of_three_levels_are_those_by_hand() -> None:
+    """Errors h² e^(x ε) with x = (1, -2, 1), which is orthogonal to any line over log h.
+
+    Student's t with one degree of freedom is 1/tan(π α)."""
+    line = error_line(THREE_LEVELS, THREE_LEVELS**2 * np.exp(EPSILON * np.array([1.0, -2.0, 1.0])))
+    two_sided, one_sided = EPSILON / tan(pi / 40), EPSILON / tan(pi / 20)
+    assert line.observed.order == pytest.approx(2.0)
+    assert line.observed.half_width == pytest.approx(two_sided * sqrt(3) / log(2))
+    assert line.observed.margin == pytest.approx(one_sided * sqrt(3) / log(2))
+    assert line.reach == pytest.approx(two_sided * sqrt(2))

@@ -102,7 +102,7 @@ def loop_end() -> TangentialHistory:
     return history
 
 
-PUNCH = FlatPunchContact.under_load(W, 0.4e-3, E)
+PUNCH = FlatPunchContact(0.4e-3, E, W)
 CONE = ConeContact.under_load(W, 0.02, E)
 LOOP = [
     f'tangential_force = ["{force} N", 0]\nincrements = {count}'

@@ -19,7 +19,6 @@ from verification.judging.judgement import judge
 from verification.judging.outcome import (
     CaseOutcome,
     ChangeKind,
-    FindingRecord,
     Status,
     Verdict,
 )
@@ -42,13 +41,9 @@ def healthy() -> CaseOutcome:
     measured = judge(hertz_point(cells=refinement(32, 128)))
     nothing_stated = {"stated_error": None, "covered": None}
     verdicts = {v.name: v.model_copy(update=nothing_stated) for v in reversed(measured.verdicts)}
-    finding = FindingRecord(
-        name="cells", run="32x32", meaning="cells in contact", unit="", value=0.25, remark=""
-    )
     return measured.model_copy(
         update={
             "verdicts": tuple(reversed(verdicts.values())),
-            "findings": (finding,),
             "charts": (),
         }
     )

@@ -108,7 +108,7 @@ def test_kept_report_that_is_set_aside_is_no_change_of_the_source(
     git("init", "--quiet")
     git("add", "--all")
     git("commit", "--quiet", "--message", "First")
-    monkeypatch.setattr(provenance, "SOURCE", tmp_path)
+    monkeypatch.setattr(provenance, "ROOT", tmp_path)
     set_aside_report(kept.parent)
     assert not kept.exists()
     assert not provenance.provenance("", {}).changed

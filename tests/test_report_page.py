@@ -35,7 +35,7 @@ def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
     return one.model_copy(update={"verdicts": verdicts})
 
 
-SHOWN = ("flat_punch", "cone_contact", "hertz_point", "radial_torsion", "torsion", "unlisted")
+SHOWN = ("tilted_punch", "cone_contact", "hertz_point", "radial_torsion", "torsion", "unlisted")
 
 
 def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first() -> None:
@@ -45,10 +45,10 @@ def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_f
         update={"value": None, "error": None, "status": Status.FAIL}
     )
     cases = [judged(verdict("radius", value, 1.0), name=name) for name, value in names.items()]
-    cases += [judged(lost, name="flat_punch"), judged(verdict("x", 1.0, 1.0), name="unlisted")]
+    cases += [judged(lost, name="tilted_punch"), judged(verdict("x", 1.0, 1.0), name="unlisted")]
     groups = cases_by_physics(cases)
     assert {title: [one.name for one in group] for title, group in groups.items()} == {
-        "indenters": ["flat_punch", "cone_contact", "hertz_point"],
+        "indenters": ["tilted_punch", "cone_contact", "hertz_point"],
         "torsion": ["radial_torsion", "torsion"],
         "unlisted": ["unlisted"],
     }

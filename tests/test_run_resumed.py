@@ -139,7 +139,7 @@ def test_interrupted_run_says_from_where_it_goes_on(tmp_path: Path) -> None:
 
 
 def test_interrupted_verification_counts_what_it_keeps(tmp_path: Path) -> None:
-    verify = ("verify", "hertz_approach_control", "worked_examples", "-o", "out")
+    verify = ("verify", "hertz_approach_control", "layered_reference", "-o", "out")
     by = signalled("SIGINT", saved=1)
     process = started(tmp_path, *verify, "--workers", "1", "--fresh", by=by)
     again = "the same command without --fresh"

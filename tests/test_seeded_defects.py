@@ -15,14 +15,11 @@ from verification.studies.seeded_defects import DefectRun, failed_verdicts
 QUICK = Settings(Level.QUICK)
 # Cases that take a fraction of a second. `test_declared_cases` solves them without a defect.
 FAST = (
-    "dissimilar_bodies",
     "hertz_approach_control",
     "layered_reference",
     "led_histories",
     "subsurface_stress",
     "tilted_punch",
-    "worked_examples",
-    "written_files",
 )
 FAST_RUNS = [
     DefectRun(defect.name, case)

@@ -127,7 +127,7 @@ def test_a_damaged_file_of_tolerances_is_named(tmp_path: Path) -> None:
 def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> None:
     """A number that gets another name loses its tolerance, unless that is accepted anew."""
     recorded = {
-        (case, f"{quantity.name} [{quantity.key[2]}] {quantity.tolerance_kind}")
+        (case, f"{quantity.name} [{quantity.key[1]}] {quantity.tolerance_kind}")
         for case, baseline in read_baselines().items()
         if level in baseline.levels
         for quantity in baseline.levels[level].quantities

@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from semi_analytical import Increment
 
 
-# Smallest shear over the largest friction limit; the direction of a smaller shear is rounding.
-LEAST_SHEAR = 1e-6
-
-
 def largest_residual(result: Result) -> float:
     """Return the largest residual of the contact and friction equations in any increment [1].
 
@@ -101,25 +97,3 @@ def transverse_shear(increment: Increment, friction_coefficient: float) -> float
     """
     limit = friction_coefficient * np.max(increment.pressure)
     return float(np.max(np.abs(shear_of(increment)[1])) / limit)
-
-
-def slip_traction_angle(increment: Increment, friction_coefficient: float) -> float:
-    """Compute the largest angle between the shear traction and the x axis in slipping cells
-    [degree].
-
-    The tangential load acts along x. The sign of the traction does not count, because it changes
-    after a load reversal.
-
-    increment             increment on cells
-    friction_coefficient  µ
-    """
-    shear = shear_of(increment)
-    size = np.hypot(shear[0], shear[1])
-    limit = friction_coefficient * np.max(increment.pressure)
-    slipping = increment.in_contact & (size > LEAST_SHEAR * limit)
-    if increment.in_stick is not None:
-        slipping &= ~increment.in_stick
-    if not slipping.any():
-        return 0.0
-    along_x, along_y = np.abs(shear[:, slipping])
-    return float(np.degrees(np.max(np.arctan2(along_y, along_x))))

@@ -69,7 +69,7 @@ class Effect:
             return "none"
         if self.observed.keeps(self.order) is None:
             return "unknown"
-        return order_text(self.observed.order, self.observed.half_width)
+        return order_text(*self.observed.interval)
 
 
 @dataclass(frozen=True)

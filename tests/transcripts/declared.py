@@ -90,7 +90,7 @@ def show_level(level: Level) -> None:
     """Print the cases, studies, challenges and defects of a level."""
     for case in choose(level):
         show("runs", case.name, case.runs)
-        show("judged", case.name, case.quantities, case.orders, case.findings, case.charts)
+        show("judged", case.name, case.quantities, case.orders, case.charts)
         show("sheet", case.name, case.title, case.problem, case.equations, case.limits, case.shows)
     for name, study in STUDIES.items():
         show("study", name, study.cases(Settings(level)))

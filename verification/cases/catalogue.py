@@ -24,11 +24,8 @@ MODULES = {
         "hertz_point",
         "hertz_exact_sphere",
         "hertz_approach_control",
-        "hertz_unloading",
-        "dissimilar_bodies",
         "hertz_elliptical",
         "cone_contact",
-        "flat_punch",
         "tilted_punch",
         "eccentric_ball",
         "fem_hertz",
@@ -65,7 +62,6 @@ MODULES = {
     ),
     "contact_stiffness": ("contact_stiffness",),
     "histories": (
-        "load_paths",
         "coupled_history",
         "same_surface",
         "forced_effects",
@@ -97,10 +93,6 @@ MODULES = {
     "cross_check": (
         "cross_check",
         "external_codes",
-    ),
-    "worked_examples": (
-        "worked_examples",
-        "written_files",
     ),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}
@@ -187,7 +179,6 @@ def lost(case: Case, reason: str) -> CaseOutcome:
         scenes=(),
         runs=(),
         verdicts=(without_result("all", f"the case has no outcome: {reason}", "case"),),
-        findings=(),
         charts=(),
         limits=case.limits,
     )

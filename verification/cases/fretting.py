@@ -26,16 +26,14 @@ from verification.judging.declared_case import (
     LARGEST_SHEAR_ERROR,
     LARGEST_SHIFT_ERROR,
     LARGEST_STICK_RADIUS_ERROR,
+    MIDDLE,
     SHEAR,
     SHIFT,
     SQUARE_ROOTS,
     STICK_RADIUS,
     WORK,
-    Drawing,
     Falls,
     Observable,
-    RefinementLevels,
-    Reported,
     Row,
     Within,
     at_stops,
@@ -55,7 +53,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.drawings import ProfileLabels, Section, convergence, radial_chart
+from verification.judging.drawings import Section, convergence
 from verification.judging.field_errors import away_from_edges
 from verification.observed.ring_errors import judged_within
 from verification.problems.cattaneo_mindlin import (
@@ -94,7 +92,6 @@ from verification.quantities import (
     force_along_x,
     shear_of,
     shift_along_x,
-    slip_traction_angle,
     transverse_shear,
 )
 
@@ -298,19 +295,9 @@ def _cycle_rows() -> tuple[Row, ...]:
     grid.
 
     The quantities are shear, shift, stick radius, slip, the fretting parameters F1 and F2 of Ruiz,
-    dissipated energy and energy balance.
+    and dissipated energy.
     """
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
-    imbalance = error_norm(
-        "largest_energy_imbalance",
-        "largest fraction of the energy unaccounted for in an increment: input work, less "
-        "elastic energy, dissipation and work unresolved by the increment",
-        lambda result, *_: max(
-            i.energy_imbalance for i in result.increments if i.energy_imbalance is not None
-        ),
-        "the largest energy so far",
-        source="first law",
-    )
     amplitude = Observable(
         "slip_amplitude",
         "half the range of slip in the cycle, maximum over the contact",
@@ -361,7 +348,6 @@ def _cycle_rows() -> tuple[Row, ...]:
             "a fifth of a cell, as for cattaneo_mindlin",
         ),
         Within(ENERGY_PER_CYCLE, 5e-4, ASKED),
-        Within(imbalance, 1e-6, ASKED),
         Within(
             amplitude,
             part_of_side(1.5),
@@ -408,8 +394,7 @@ def fretting_loop(level: Level = Level.QUICK) -> Case:
         "The contact of cattaneo_mindlin on a window of 2.2 contact radii, loaded tangentially "
         "to 0.9 µW, to -0.9 µW and to 0.9 µW again. After a reversal the preceding slip stays "
         "locked in, so that the case judges the effect of the whole history. Judged are also the "
-        "results for fretting: slip amplitude, Ruiz's parameters, and the balance of work, "
-        "stored and dissipated energy.",
+        "results for fretting: slip amplitude and Ruiz's parameters.",
         judged(grids, _cycle_rows()),
         charts=(
             lambda results: hysteresis_chart(
@@ -450,42 +435,11 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     grid = square_grid(cells, 0.6e-3)
     run = ladder(problem, [Run(cells_label(cells), problem.scene, grid)])
 
-    def reported(
-        name: str, meaning: str, unit: str, read: Any, remark: str = "zero in the closed form"
-    ) -> Reported:
-        what = Observable(name, meaning, unit, lambda result, *_: float(read(result)), None)
-        return Reported(what, remark)
-
-    rows = (
-        Within(LARGEST_SHIFT_ERROR, 0.01, band),
-        Within(ENERGY_PER_CYCLE, 0.02, band),
-        reported(
-            "transverse_shear",
-            "largest |q_y| / µp₀ at the end of the first loading",
-            "",
-            lambda result: transverse_shear(result.steps[LOADED - 1], FRICTION),
-        ),
-        reported(
-            "largest_transverse_shear",
-            "largest |q_y| / µp₀ of any increment",
-            "",
-            lambda result: np.max([transverse_shear(i, FRICTION) for i in result.increments]),
-        ),
-        reported(
-            "slip_direction_deviation",
-            "largest angle between shear and x axis in the slip ring, end of the first loading",
-            "°",
-            lambda result: slip_traction_angle(result.steps[LOADED - 1], FRICTION),
-            "zero in the closed form: the angle between its slip and its traction would be of "
-            "this size",
-        ),
-        reported(
-            "shift_at_amplitude",
-            "shift at 0.9 µW over the closed form's, less one",
-            "",
-            lambda result: shift_along_x(result.steps[LOADED - 1]) / exact.end.shift - 1,
-            "the vector law makes the contact stiffer",
-        ),
+    across = error_norm(
+        "transverse_shear",
+        "largest |q_y| at the end of the first loading",
+        lambda result, *_: transverse_shear(result.steps[LOADED - 1], FRICTION),
+        "µp₀",
     )
 
     def drawn(results: Mapping[str, Any]) -> Any:
@@ -497,12 +451,14 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         "Two identical bodies of 420 GPa and ν = 0.3: a ball of 18 mm with its exact arc under 1 "
         "kN, µ = 0.1, T between ± 0.9 µW. For ν > 0 the closed form violates the direction law "
         "of friction in its slip annulus. It is therefore not the exact solution here: the "
-        "difference must be small and is reported.",
+        "difference must be small.",
         judged(
             replace(run, problem=replace(problem, uncertainty=0.05)),
-            (Within(LARGEST_SHEAR_ERROR, 0.05, band),),
+            (Within(LARGEST_SHEAR_ERROR, 0.05, band), Within(across, 0.05, band)),
         ),
-        judged(run, rows),
+        judged(
+            run, (Within(LARGEST_SHIFT_ERROR, 0.01, band), Within(ENERGY_PER_CYCLE, 0.02, band))
+        ),
         charts=(
             lambda results: loading_history_chart(drawn(results)),
             lambda results: tractions_chart(drawn(results), exact),
@@ -510,6 +466,9 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         ),
         limits=(
             "The closed form is not the solution of this problem; the ν = 0 loop judges accuracy.",
+            "It has no shear across the load. Here this reaches 0.04 µp₀ at the end of the first "
+            "loading and 0.15 µp₀ in the loop. Shear turns by up to 6° from the load in the "
+            "slip annulus, and the shift is 9e-4 smaller.",
         ),
         no_order="the closed form is approximate: its error does not fall with the cells",
         shows=("figure 1", "figure 2", "fretting loop", "p_H"),
@@ -573,34 +532,6 @@ OF_LOOP = (
 )
 
 
-def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption: str) -> Drawing:
-    """Return a function that draws the shear over the radius at the end of a step of the fretting
-    loop.
-
-    The function receives the results of a case by run label, and draws the finite element shear and
-    the closed form.
-
-    of       refinement levels, of which the judged run is drawn
-    step     number of the load step, from 1
-    name     file name of the chart
-    when     description of the load at the end of the step
-    caption  caption of the chart
-    """
-
-    def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[of.judged.label]
-        end = result.steps[step - 1]
-        along = LOOP.ends[-1].along(result)
-        *_, exact = (known for found, known in along if found.step == step)
-        a, limit = HERTZ.contact_radius, LOOP.scale(OVER_LIMIT)
-        r = np.linspace(0.0, a, 120)
-        labels = ProfileLabels(name, f"Shear over the radius, {when}", caption, "q / µp₀", "r / a")
-        known = (r, exact.shear(r))
-        return radial_chart(labels, a, limit, end, end.shear_along_load, known)
-
-    return draw
-
-
 def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """Create the verification case of partial slip and of a fretting loop by finite elements.
 
@@ -608,12 +539,12 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     level the orders of convergence are judged for a single tangential loading with ν = 0.
     """
     orders = level is not Level.QUICK
+    n = finest(level)
     # The positions of the stick edges in their elements depend on the mesh as well.
-    studied = order_levels(level, per_octave=10)
+    studied = order_levels(level, per_octave=10) if orders else ((n, MIDDLE),)
     once = sheared(
         "Two alike bodies with ν = 0 sheared once, by finite elements", tuple(STOPPED.values())
     )
-    n = finest(level)
     mesh = on_elements(LOOP, (n,), over=0.97)
     springs = on_springs(
         on_elements(LOOP, (n,), 0.97, "loop"), f"loop, {n} elements per radius, penalty"
@@ -684,30 +615,7 @@ def fem_partial_slip(level: Level = Level.QUICK) -> Case:
         judged(mesh, (*OF_LOOP, stick_of_loop)),
         judged(springs, OF_LOOP),
         judged(shearing, (*rows, *falls) if orders else rows),
-        charts=(
-            *(
-                _loop_profile(
-                    mesh,
-                    step,
-                    f"fem_partial_slip_{name}",
-                    name,
-                    f"Shear by finite elements and by the closed form at {force} µW, and their "
-                    "difference.",
-                )
-                for step, name, force in (
-                    (LOADED, "loaded", "0.9"),
-                    (LOADED + 1, "reversed", "-0.9"),
-                )
-            ),
-            _loop_profile(
-                springs,
-                LOADED,
-                "fem_partial_slip_penalty",
-                "at 0.9 µW",
-                "Shear at the Gauss points, the closed form, and their difference.",
-            ),
-            *(of_orders if orders else ()),
-        ),
+        charts=of_orders if orders else (),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
         shows=("finite elements", "load history", "penalty"),

@@ -53,7 +53,6 @@ from verification.problems.cattaneo_mindlin import (
 )
 from verification.problems.problem import (
     FRICTION,
-    FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
@@ -66,7 +65,6 @@ from verification.problems.problem import (
     coated,
     film,
     frictional,
-    hertz_grid,
     identity,
     paraboloid,
     pressed,
@@ -81,7 +79,6 @@ Difference = Callable[[Any, Any], float]
 
 ANSWERED = "residuals of two solves, amplified a few times in the tractions"
 ISOTROPIC = "isotropy of bodies and friction"
-TURNS_INTO_ITSELF = "a right angle maps square cells to square cells; "
 ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
 EXACT = 10 * SOLVER_TOLERANCE
 FILMED = coated(film(2.0, 1.0))
@@ -163,70 +160,6 @@ in_mirror = partial(  # at the plane x = 0
     lambda q: np.stack([-q[0][::-1], q[1][::-1]]),
     lambda shift: np.array([-shift[0], shift[1]]),
 )
-
-
-def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Create the verification case of load histories on cells for which no closed form exists.
-
-    The normal force changes at constant tangential force, or the tangential force changes
-    direction. Judged are the laws of contact and friction, and that a rotated history gives rotated
-    results.
-
-    level  amount of computation: quick, standard or full
-    cells  number of cells per side; 0: that of the level
-    """
-    grid = hertz_grid(cells or (64 if level is Level.QUICK else 128))
-    half = 0.5 * FRICTION_LIMIT
-    along = LoadStep(tangential_force=(half, 0.0), increments=2)
-    turning = (
-        along,
-        LoadStep(tangential_force=(half, half), increments=3),
-        LoadStep(tangential_force=(-half, half), increments=4),
-    )
-
-    def run(label: str, title: str, *loading: LoadStep) -> Run:
-        return Run(label, frictional(title, paraboloid(STEEL), STEEL, *loading), grid)
-
-    changes = (
-        run(
-            f"{way} at constant T",
-            f"Normal force {word} at constant tangential force",
-            along,
-            LoadStep(normal_force=part * NORMAL_FORCE, increments=4),
-        )
-        for way, word, part in (("unloading", "reduced", 0.6), ("loading", "raised", 1.4))
-    )
-    straight = run("turning", "Tangential force turning by a right angle", *turning)
-    quarter = run(
-        "turning, turned by 90°",
-        "Tangential force turning, as a whole turned by 90°",
-        *turned(turning, 90.0),
-    )
-    return case(
-        "load_paths",
-        "Load histories without a closed form",
-        "Histories in which normal and tangential loads change together or in two directions, "
-        "for ν = 0.3. There is no closed form. Judged are the laws of contact and friction in "
-        "each increment, and the independence of the result from the direction of the load.",
-        compared(
-            "turned_by_90",
-            "difference of pressure, shear and shift after a rotation by a right angle",
-            quarter,
-            straight,
-            after_quarter,
-            EXACT,
-            TURNS_INTO_ITSELF + ANSWERED,
-            ISOTROPIC,
-        ),
-        runs=tuple(changes),
-        limits=(
-            "Small residuals show that the equations are solved, not that the equations are "
-            "correct.",
-        ),
-        equations=(ROTATION,),
-        no_order=IDENTITY,
-        shows=("(4)", "load history"),
-    )
 
 
 # loading steps
@@ -539,16 +472,14 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
     coated_ball = Paraboloid(radius=RADIUS, material=SUBSTRATE, layers=(one_film,))
     way = (pressing(), *(tangential_step(part, increments=2) for part in (0.9, -0.9)))
     scenes = {
-        "frictionless": pressed(
-            "The paper's ball without friction", rigid_ball(), Body(material=SUBSTRATE)
-        ),
+        "frictionless": pressed("The paper's ball without friction", rigid_ball(), SUBSTRATE),
         "frictionless coated": pressed(
             "The paper's ball on a coating, without friction", rigid_ball(), FILMED
         ),
         **{
             f"{name} sheared": pressed(title, ball, body, *way, friction=FRICTION)
             for name, title, ball, body in (
-                ("alike bodies", "Two alike bodies", paraboloid(STEEL), Body(material=STEEL)),
+                ("alike bodies", "Two alike bodies", paraboloid(STEEL), STEEL),
                 ("alike coated bodies", "Two alike coated bodies", coated_ball, FILMED),
                 ("rigid ball on coating", "The paper's ball on a coating", rigid_ball(), FILMED),
             )

@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, LoadStep, Paraboloid, Sphere
-from verification.closed_forms.flat_punch import TiltedPunch
-from verification.closed_forms.hertz import PointContact, SphereContact
+from contact_scene import FlatPunch, LoadStep, Sphere
+from verification.closed_forms.flat_punch import FlatPunchContact
+from verification.closed_forms.hertz import SphereContact
 from verification.judging.case import (
-    AnyRun,
     Case,
     Level,
     NotYetAsymptotic,
@@ -37,19 +36,16 @@ from verification.judging.declared_case import (
     EDGE,
     FORCE,
     IDENTITY,
-    JUDGED_BY,
     PEAK_PRESSURE,
     PENALTY,
     PRESSURE_L1,
     PRESSURE_L2,
     PRESSURE_WITHIN,
     STAIRCASE,
-    TOLERANCE_ELEMENTS,
     Falls,
     Judged,
     Observable,
     Refined,
-    ScaledTolerance,
     Within,
     because,
     case,
@@ -59,7 +55,6 @@ from verification.judging.declared_case import (
     ladder,
     levels,
     meshed,
-    named,
     number,
     on_cells,
     on_elements,
@@ -81,7 +76,6 @@ from verification.problems.indentation import (
     PUNCH,
     PUNCH_RADIUS,
     PUNCH_WINDOW,
-    hertzian,
     mean_pressure,
 )
 from verification.problems.problem import (
@@ -97,7 +91,6 @@ from verification.problems.problem import (
     Problem,
     Reference,
     ReferenceKind,
-    frictionless,
     paraboloid,
     pressed,
     pressing,
@@ -209,7 +202,7 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     """
     ball, load = Sphere(radius=RADIUS, material=STEEL), pressing()
     problem = Problem(
-        frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
+        pressed("Ball with its exact arc on a half-space", ball, STEEL, load),
         (ARC,),
         HERTZ.contact_radius,
         "Sneddon 1965, arc of a circle, by Gauss quadrature",
@@ -273,136 +266,6 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
         judged(on_cells(LED_BALL, refinement(32, 128)), rows),
         no_order=DERIVED,
         shows=("prescribed motion",),
-    )
-
-
-PART = (27.5 / 32.5) ** 3  # about 0.6; the edge is then in the middle of one of 32 elements
-UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
-SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
-
-
-def on_smaller(figure: float, order: float) -> ScaledTolerance:
-    """Create a tolerance that depends on the number of cells or elements in the contact after
-    unloading.
-
-    Grids and meshes are laid out for the larger contact before unloading, so that the smaller
-    contact has fewer cells.
-
-    figure  tolerance at 128 × 128 cells, or at 64 elements per contact radius
-    order   convergence order by which the tolerance is scaled
-    """
-
-    def allowed(run: AnyRun, _: float) -> float:
-        inside = run.count * SMALLER
-        on_cells = isinstance(run, Run)
-        return figure * (128 / inside if on_cells else TOLERANCE_ELEMENTS / round(inside)) ** order
-
-    return allowed
-
-
-def hertz_unloading(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a frictionless contact that is loaded and partly unloaded.
-
-    Without friction the history has no effect. The end state is compared with Hertz theory.
-    """
-    cells, elements = {
-        Level.QUICK: (128, 32),
-        Level.STANDARD: (256, 64),
-        Level.FULL: (512, 128),
-    }[level]
-    down = LoadStep(normal_force=PART * NORMAL_FORCE)
-    # Grids and meshes are laid out for the larger contact.
-    problem = replace(
-        BALL,
-        scene=pressed(
-            "Ball on a half-space, pressed and unloaded",
-            paraboloid(STEEL),
-            BALL.scene.body,
-            pressing(),
-            down,
-        ),
-        ends=(HERTZ, UNLOADED),
-    )
-    stored = replace(
-        number("elastic_energy", "energy stored in both bodies"),
-        value=lambda exact: 0.4 * exact.load * exact.approach,
-        source="Hertz 1882: W ~ δ^(3/2), so that ∫W dδ is 2/5 of W δ",
-    )
-    why = (
-        "accuracy target of hertz_point on 128 x 128 cells; on other cells per radius scaled by "
-        "order 2"
-    )
-    twice = "twice the tolerance of the approach"
-    on_grid = (
-        Within(APPROACH, on_smaller(5e-5, 2), why),
-        Within(
-            CONTACT_RADIUS,
-            lambda *level: part_of_side(0.1)(*level) / SMALLER,
-            "a tenth of a cell, as for hertz_point",
-        ),
-        Within(PEAK_PRESSURE, on_smaller(1.5e-4, 2), why),
-        Within(stored, on_smaller(1e-4, 2), twice),
-    )
-    on_mesh = (
-        Within(APPROACH, on_smaller(1e-4, 2), because(2)),
-        Within(
-            CONTACT_RADIUS,
-            lambda *level: min(2e-3, on_smaller(5e-4, 1)(*level)),
-            "as for fem_hertz: the edge is known to 1/30 of an element",
-        ),
-        Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
-        Within(stored, on_smaller(2e-4, 2), twice),
-    )
-    return case(
-        "hertz_unloading",
-        "Unloading without friction",
-        f"The paper's ball is pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction "
-        "the contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
-        "force.",
-        judged(on_cells(problem, (cells,)), on_grid),
-        judged(with_edge_at(problem, (elements,)), on_mesh),
-        no_order=JUDGED_BY.format("hertz_point and fem_hertz"),
-        shows=("(5)", "load history"),
-    )
-
-
-def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of frictionless bodies of different materials with equal E*, on
-    cells.
-
-    1/E* is the sum of (1-ν²)/E of both bodies. Hertz theory depends on E* only. All levels are
-    equal.
-    """
-    cells = 128
-    hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
-    # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is that of the standard ball
-    soft = IsotropicMaterial(
-        young_modulus=0.75 / (1 / CONTACT_MODULUS - (1 - 0.25**2) / 300e9), poisson_ratio=0.5
-    )
-    steel = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-    pairs = {
-        "rigid ball on 210 GPa": (Paraboloid(radius=RADIUS, material=RIGID), steel),
-        "ball of 300 GPa on a softer body": (paraboloid(hard), soft),
-    }
-    rows = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
-    scenes = {
-        name: pressed(name, ball, Body(material=body)) for name, (ball, body) in pairs.items()
-    }
-    return case(
-        "dissimilar_bodies",
-        "Dissimilar bodies without friction",
-        "Pairs of different materials with the E* of hertz_point: a rigid ball on steel, and a "
-        "ball on an incompressible body. Without friction Hertz's solution depends only on E*.",
-        *(
-            judged(named(name, on_cells(hertzian(scene), (cells,), of=name)), rows)
-            for name, scene in scenes.items()
-        ),
-        limits=(
-            f"On {cells}x{cells} cells only: the operator differs from hertz_point's by a factor.",
-        ),
-        equations=(r"\frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}",),
-        no_order="the operator differs from that of hertz_point by a factor, its orders do not",
-        shows=("unlike bodies",),
     )
 
 
@@ -633,47 +496,9 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     )
 
 
-def flat_punch(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a flat punch on a half-space, whose pressure is infinite at
-    the rim.
-
-    Approach and central pressure on cells are compared with the closed form.
-    """
-    cells = refinement(32, 128 if level is Level.QUICK else 256)
-    grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
-    rows = (
-        Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
-        Within(
-            CENTRAL_PRESSURE,
-            part_of_side(1.0),
-            f"one cell over the radius: pressure goes as 1/radius², and {STAIRCASE}",
-        ),
-    )
-    return case(
-        "flat_punch",
-        "Flat punch on a half-space",
-        "A flat-ended cylinder of 0.4 mm radius under 1 kN. Force and approach are proportional; "
-        "the pressure is singular at the rim, as 1/√(distance).",
-        judged(grids, rows),
-        charts=(
-            convergence(
-                grids,
-                (Falls(APPROACH, 1.0, STAIRCASE),),
-                "flat_punch_convergence",
-                "Convergence of the flat punch",
-                "Relative errors against cell side, with a line of slope one.",
-                also=(CENTRAL_PRESSURE,),
-            ),
-        ),
-        no_order="first order in the cell side with scatter: the division of cells by the circle "
-        "differs from grid to grid",
-        shows=("known solutions", "shapes"),
-    )
-
-
 # Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
 ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
-TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
+TILTED = FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
 def _stiffness_difference(one: Any, other: Any) -> float:
@@ -708,7 +533,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
-        frictionless(title, punch, STEEL, step)
+        pressed(title, punch, STEEL, step)
         for title, step in {
             "Flat punch pressed beside its axis": LoadStep(
                 normal_force=NORMAL_FORCE,
@@ -753,7 +578,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             "as the tilt",
         ),
     )
-    grids = on_cells(problem, refinement(32, 128 if level is Level.QUICK else 256), PUNCH_WINDOW)
+    grids = on_cells(problem, (128 if level is Level.QUICK else 256,), PUNCH_WINDOW)
     finest = grids.judged
     assert isinstance(finest, Run)
     return case(
@@ -777,8 +602,9 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                 "linearity of a contact that does not change",
             ),
         ),
-        no_order="first order in the cell side with scatter, as in flat_punch",
-        shows=("(1)", "(3)", "tilt and torsion"),
+        no_order="first order in the cell side with scatter: the division of cells by the circle "
+        "differs from grid to grid",
+        shows=("(1)", "(3)", "known solutions", "shapes", "tilt and torsion"),
     )
 
 
@@ -824,8 +650,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
         increments=increments,
     )
-    steel = (paraboloid(STEEL), Body(material=STEEL))
-    unlike = (rigid_ball(), Body(material=SUBSTRATE))
+    steel, unlike = (paraboloid(STEEL), STEEL), (rigid_ball(), SUBSTRATE)
     runs = tuple(
         Run(label, pressed(title, *bodies, step, friction=FRICTION), grid)
         for label, title, bodies, step in (
@@ -896,7 +721,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     """
     why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
     rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"
-    cones = with_edge_at(CONE, levels(level), of="cone")
+    cones = with_edge_at(CONE, (finest(level),), of="cone")
     punches = on_elements(PUNCH, levels(level), of="punch")
     between = error_norm(
         "pressure_of_cone",
@@ -935,7 +760,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_classical",
         "Finite elements: cone and flat punch",
-        "The scenes of cone_contact and flat_punch by finite elements. Below the punch the "
+        "The cone of cone_contact and a flat punch by finite elements. Below the punch the "
         "outermost hat function of the pressure is half a hat that ends at the rim.",
         judged(cones, of_cone),
         judged(punches, of_punch),
@@ -947,14 +772,6 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
                 "fem_classical_convergence",
                 "Convergence of the punch",
                 caption,
-            ),
-            convergence(
-                cones,
-                (),
-                "fem_classical_cone",
-                "Convergence of the cone",
-                caption,
-                also=(APPROACH,),
             ),
         ),
         shows=("finite elements", "known solutions"),

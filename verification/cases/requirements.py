@@ -64,8 +64,6 @@ REQUIREMENTS: dict[str, dict[str, str]] = {
         "penalty": "finite elements with a penalty",
         "radial solver": "discs and rings as reference",
         "other codes": "published numbers and external codes",
-        "statistics": "tolerances, orders and intervals of the verification",
-        "files": "numbers in the files of a run",
     },
 }
 

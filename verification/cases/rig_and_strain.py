@@ -18,7 +18,7 @@ from contact_results.cycles import fretting_cycles
 from contact_scene import Ellipsoid, LoadStep, Rig
 from contact_scene.array_types import Field
 from contact_scene.quantities.summary import OF_CYCLES
-from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
+from verification.closed_forms.cattaneo_mindlin import TangentialHistory
 from verification.closed_forms.hertz import EllipticalContact
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
@@ -148,62 +148,24 @@ AT_ENDS = {1: 1.0, 2: -1.0, 3: 1.0}  # of the largest shift of the actuator, by 
 ON_ALL = 1e-3
 
 
-@dataclass(frozen=True)
-class Sprung:
-    """Hold the exact state of a Hertz contact whose tangential load acts through a spring.
+def _moved_to(state: TangentialHistory, actuator: float) -> TangentialHistory:
+    """Compute the state of a contact in series with the spring after the actuator has moved.
 
-    The contact follows Mindlin and Deresiewicz. The spring represents a test rig of finite
-    stiffness between actuator and indenter.
-
-    state  state of the contact under its tangential force
+    state     state of the contact before; it follows Mindlin and Deresiewicz
+    actuator  shift of the actuator: shift of the indenter plus extension of the spring [length]
     """
 
-    state: TangentialHistory
+    def missed(force: float) -> float:
+        return state.loaded_to(force).shift + force / STIFFNESS - actuator
 
-    @property
-    def tangential_force(self) -> float:
-        """Tangential force T of contact and spring [force]."""
-        return self.state.tangential_force
-
-    @property
-    def shift(self) -> float:
-        """Tangential shift of the indenter; the extension of the spring is not included
-        [length].
-        """
-        return self.state.shift
-
-    @property
-    def dissipated_energy(self) -> float:
-        """Energy dissipated by friction since the start [force length]."""
-        return self.state.dissipated_energy
-
-    @property
-    def loaded_force(self) -> float:
-        """Magnitude of the current tangential force, which is the maximum of the loop [force]."""
-        return abs(self.tangential_force)
-
-    @property
-    def loaded(self) -> PartialSlip:
-        """State of the contact if the force had grown from zero to the current magnitude."""
-        return replace(self.state.virgin, tangential_force=self.loaded_force)
-
-    def moved_to(self, actuator: float) -> Sprung:
-        """Compute the state of contact and spring after the actuator has moved to another shift.
-
-        actuator  shift of the actuator: shift of the indenter plus extension of the spring [length]
-        """
-
-        def missed(force: float) -> float:
-            return self.state.loaded_to(force).shift + force / STIFFNESS - actuator
-
-        return Sprung(self.state.loaded_to(brentq(missed, -FRICTION_LIMIT, FRICTION_LIMIT)))
+    return state.loaded_to(brentq(missed, -FRICTION_LIMIT, FRICTION_LIMIT))
 
 
 def _spring_loop_problem() -> Problem:
-    states = [Sprung(TangentialHistory(partial_slip(NU_ZERO, 0.0)))]
+    states = [TangentialHistory(partial_slip(NU_ZERO, 0.0))]
     steps = []
     for step, part in AT_ENDS.items():
-        states.append(states[-1].moved_to(part * ACTUATED))
+        states.append(_moved_to(states[-1], part * ACTUATED))
         shift = (part * ACTUATED, 0.0)
         steps.append(LoadStep(tangential_shift=shift, increments=4 if step == 1 else 8))
     scene = frictional("Loop through a spring, ν = 0", paraboloid(NU_ZERO), NU_ZERO, *steps)
@@ -226,17 +188,6 @@ FORCE = number(
 )
 
 
-def once_lost(loaded: PartialSlip) -> float:
-    """Compute the energy that friction dissipates while the tangential force grows from zero [1].
-
-    The energy is divided by µW times the tangential shift at gross slip. A full fretting cycle
-    dissipates four times this energy.
-
-    loaded  state of partial slip at the end of the growth
-    """
-    return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
-
-
 def _loop_observable(name: str) -> Observable:
     """Create the observable of one number by which fretting tests describe a hysteresis loop.
 
@@ -247,13 +198,14 @@ def _loop_observable(name: str) -> Observable:
         (cycle,) = fretting_cycles(result)
         return float(cycle.numbers[name])
 
-    def exact(end: Sprung) -> float:
-        lost, force = 4 * once_lost(end.loaded) * FRICTION_LIMIT * SLIDING_SHIFT, end.loaded_force
-        opening = end.state.loaded_to(0.0).shift
+    def exact(end: TangentialHistory) -> float:
+        force, opening = abs(end.tangential_force), abs(end.loaded_to(0.0).shift)
+        # By Masing's rule a cycle dissipates four times the energy of the first loading.
+        lost = 4 * replace(end.virgin, tangential_force=force).dissipated_energy
         numbers = {
-            "loop_opening": abs(opening),
+            "loop_opening": opening,
             "energy_ratio": lost / (4 * force * ACTUATED),
-            "energy_friction": lost / (4 * NORMAL_FORCE * abs(opening)),
+            "energy_friction": lost / (4 * NORMAL_FORCE * opening),
             "gross_slip_share": 5 * lost / (4 * force * end.shift),
         }
         return float(numbers[name])

@@ -27,7 +27,8 @@ from contact_scene import (
 from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
-from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
+from verification.closed_forms.coated_indentation import LayeredSurface
+from verification.closed_forms.torsion import CoatedTorsion, one_layer
 from verification.judging.case import (
     OVER_ANGLES,
     Case,
@@ -56,7 +57,6 @@ from verification.judging.declared_case import (
     on_elements,
     on_radii,
     on_springs,
-    order_levels,
     part_of_side,
     refinement,
     scaled_tolerance,
@@ -169,7 +169,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
     """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
-    punches = on_cells(STUCK, cells[::-2][::-1], 2.2, of="stuck punch")
+    punches = on_cells(STUCK, finest, 2.2, of="stuck punch")
     shear = error_norm(
         "shear", "Σ|q - q_exact| / Σµp{when}", _shear_on_cells, "Σµp", of=Followed.SHEAR
     )
@@ -276,9 +276,9 @@ def twisted_coated() -> Problem:
     The answer is the solution of a Fredholm integral equation for each torque.
     """
     normal = exact_contact(BODY, BALL)
-    surface = TorsionalSurface(
+    surface = LayeredSurface(
         lambda k: 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus),
-        COATING.shear_modulus / 2,
+        COATING.shear_modulus,
         LAYERS[0].thickness,
     )
     a = normal.contact_radius
@@ -315,15 +315,14 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
     """Create the verification case of torsion by finite elements: a ball in partial slip, a stuck
     punch.
 
-    Twist, stick radius and shear are compared with closed forms, on meshes with several positions
-    of the contact edge in its element.
+    Twist, stick radius and shear are compared with closed forms.
     """
     cusp = (
         "set by hand: at 64 elements per radius 2e-3 of the twist and 5e-3 of µp_H, on other "
         "meshes scaled by the order 3/2 of the cusps at both edges"
     )
     rim = "the error of hat functions at the infinite shear of the rim has an energy of O(h)"
-    balls = with_edge_at(TWISTED, levels(level)[-1:], order_levels(level), "ball")
+    balls = with_edge_at(TWISTED, (finest(level),), of="ball")
     of_ball = at_stops(
         TORQUE_PARTS,
         SLIDING,

@@ -6,10 +6,8 @@ for the answer. The record becomes the same `Answer` objects that a solver funct
 
 from __future__ import annotations
 
-import csv
-import io
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -27,7 +25,7 @@ from verification.challenge.cases import challenges
 from verification.challenge.python_api import checked
 from verification.challenge.requested_quantities import Challenge, Grade, Patch
 from verification.challenge.solver_process import plain_answer
-from verification.running.study import json_text
+from verification.running.study import csv_text, json_text
 
 
 def toml_text(scene: Scene | Patch) -> str:
@@ -80,7 +78,6 @@ def _toml_value(value: Any) -> str:
 ANSWERS = "answers.json"
 POINTS = "points.csv"
 REMEDY = "correct it, or export the challenge again to another folder"
-POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
 TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -219,12 +216,12 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
         raise Refused(f"{directory / ANSWERS} exists: take another folder, or delete it")
     files = {
         "scene.toml": toml_text(challenge.scene),
-        "asked.csv": _required_quantities_csv(challenge, blind=blind),
+        "asked.csv": csv_text(_required_quantities(challenge, blind=blind)),
         "problem.md": _problem_text(challenge),
         ANSWERS: _empty_answers(challenge),
     }
     if challenge.points:
-        files[POINTS] = _csv_text([POINT_COLUMNS, *_point_rows(challenge)])
+        files[POINTS] = csv_text(_places(challenge))
     if not blind:
         files["reference.json"] = json.dumps(challenge.reference(), indent=1) + "\n"
     with files_at_once(directory, ANSWERS, ()) as staging:
@@ -232,30 +229,32 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
             (staging / name).write_text(text, encoding="utf-8")
 
 
-def _required_quantities_csv(challenge: Challenge, *, blind: bool) -> str:
-    rows: list[Sequence[Any]] = [
-        (
-            "quantity",
-            "load_step",
-            "unit",
-            "norm",
-            "scale",
-            "scale_name",
-            "grade",
-            "required",
-            "meaning",
-        )
-    ]
+def _required_quantities(challenge: Challenge, *, blind: bool) -> Iterator[Mapping[str, object]]:
+    """Yield the lines of the table of required quantities, as cells by column name."""
     for v in (*challenge.values, *challenge.points):
-        scale = "" if blind else f"{v.scale:.10g}"
-        norm, at = ("abs", "") if v.places is None else ("largest", f", at the places of {POINTS}")
-        required = "yes" if v.required else "no"
-        meaning = f"{v.meaning}{at}"
-        rows.append((v.quantity, v.step, v.unit, norm, scale, v.over, v.par, required, meaning))
+        at_places = v.places is not None
+        yield {
+            "quantity": v.quantity,
+            "load_step": v.step,
+            "unit": v.unit,
+            "norm": "largest" if at_places else "abs",
+            "scale": "" if blind else f"{v.scale:.10g}",
+            "scale_name": v.over,
+            "grade": v.par,
+            "required": "yes" if v.required else "no",
+            "meaning": f"{v.meaning}, at the places of {POINTS}" if at_places else v.meaning,
+        }
     for f in challenge.fields:
-        over = "its own norm" if f.norm == "L2" else "µW"
-        rows.append((f.quantity, f.step, "Pa", f.norm, "", over, f.par, "no", f.meaning))
-    return _csv_text(rows)
+        yield {
+            "quantity": f.quantity,
+            "load_step": f.step,
+            "unit": "Pa",
+            "norm": f.norm,
+            "scale_name": "its own norm" if f.norm == "L2" else "µW",
+            "grade": f.par,
+            "required": "no",
+            "meaning": f.meaning,
+        }
 
 
 def _empty_answers(challenge: Challenge) -> str:
@@ -272,14 +271,19 @@ def _empty_answers(challenge: Challenge) -> str:
     return json_text(content)
 
 
-def _point_rows(challenge: Challenge) -> Iterator[Sequence[Any]]:
-    """Yield the rows of the CSV table of the points at which a challenge requires numbers.
+def _places(challenge: Challenge) -> Iterator[Mapping[str, object]]:
+    """Yield the lines of the table of the points at which a challenge requires numbers.
 
     The points of each quantity are numbered from 1.
     """
     for p in challenge.points:
         for n, place in enumerate(p.places, start=1):
-            yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
+            yield {
+                "quantity": p.quantity,
+                "load_step": p.step,
+                "point": n,
+                **{f"{axis} [m]": f"{x:.10g}" for axis, x in zip("xyz", place, strict=True)},
+            }
 
 
 def _problem_text(challenge: Challenge) -> str:
@@ -329,9 +333,3 @@ def _prescribed_ends(ramp: LoadRamp) -> Iterator[str]:
 
 def _template_text(name: str) -> str:
     return (TEMPLATES / name).read_text(encoding="utf-8")
-
-
-def _csv_text(rows: Sequence[Sequence[Any]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()

@@ -29,7 +29,12 @@ from verification.challenge.solver_process import (
     Solve,
     answers_of,
 )
-from verification.convergence.observed_order import observed_order, order_text
+from verification.convergence.observed_order import (
+    ObservedOrder,
+    is_within,
+    observed_order,
+    order_text,
+)
 from verification.judging.outcome import Status
 from verification.norms import cell_means
 
@@ -84,9 +89,8 @@ def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, 
 
 AskedQuantity = AskedValue | AskedField
 
-# Errors stall if the upper end of the interval of the order is below this value.
+# Errors stall if the order is below this value at 95 %.
 STALLS_BELOW = 0.5
-ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
 # A standard uncertainty that exceeds the error by this factor on every level is not informative.
 IDLE = 25.0
@@ -107,7 +111,7 @@ class Row:
     error      error divided by its scale
     bound      largest accepted error; None if a property other than the error is judged
     grade      best accuracy class whose bound the error meets; None for no class
-    order      observed order of convergence and half-width of its 95 % interval
+    order      observed order of convergence with its uncertainty; None if it is unknown
     errors     pairs of size h and error of all levels
     """
 
@@ -121,7 +125,7 @@ class Row:
     error: float | None = None
     bound: float | None = None
     grade: Grade | None = None
-    order: tuple[float, float] | None = None
+    order: ObservedOrder | None = None
     errors: tuple[tuple[float, float], ...] = ()  # by h, of all levels
 
 
@@ -209,17 +213,14 @@ class _Judge:
         return tuple((one.h, self._relative_error(given)) for one, given in self.found)
 
     @cached_property
-    def _order(self) -> tuple[float, float] | None:
-        """Order of those errors that are well above the uncertainty of the reference, and the
-        half-width of its 95 % interval.
-
-        None if fewer than 3 sizes remain.
+    def _order(self) -> ObservedOrder | None:
+        """Order of those errors that are well above the uncertainty of the reference; None if fewer
+        than 3 sizes remain.
         """
         told = [(h, e) for h, e in self._errors if e > 1.5 * self._wide and 0 < e < math.inf]
         if len({h for h, _ in told}) < FEWEST_LEVELS:
             return None
-        fit = observed_order(*zip(*told, strict=True))
-        return fit.order, fit.half_width
+        return observed_order(*zip(*told, strict=True))
 
     def _row(self, about: str, level: str, status: Status, because: str, **more: Any) -> Row:
         return Row(f"{self.asked.quantity}{about}", self.asked.step, level, status, because, **more)
@@ -249,17 +250,17 @@ class _Judge:
     def _error(self) -> Row:
         """Judge the error of a quantity on the finest level against the bound of an accuracy class.
 
-        The verdict is inconclusive where twice the uncertainty of the reference decides.
+        The class limits the error against the exact solution, from which the reference differs by
+        up to twice its uncertainty. The verdict is inconclusive where this difference decides.
         """
         error, bound = self._errors[-1][1], self.grade.bound
-        if error + self._wide <= bound:
-            status, because = Status.PASS, f"within class {self.grade}"
-        elif not math.isfinite(error):
-            status, because = Status.FAIL, "no finite number"
-        elif error - self._wide <= bound:
-            status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
-        else:
-            status, because = Status.FAIL, f"beyond class {self.grade}{self._slip_hint()}"
+        status = Status.of(is_within(error - self._wide, error + self._wide, bound))
+        because = {
+            Status.PASS: f"within class {self.grade}",
+            Status.INCONCLUSIVE: "the reference is not certain enough to tell",
+        }.get(status, "no finite number")
+        if status is Status.FAIL and math.isfinite(error):
+            because = f"beyond class {self.grade}{self._slip_hint()}"
         value = reference = None
         if isinstance(self.asked, AskedValue) and self.asked.places is None:
             value, reference = self.found[-1][1], self.asked.value
@@ -280,25 +281,18 @@ class _Judge:
     def _convergence(self) -> Iterator[Row]:
         """Yield verdicts on the convergence of a quantity: errors must decrease, and a claimed
         order must hold."""
-        if self._order is None:
+        fit = self._order
+        if fit is None:
             return
-        order, half = self._order
-        if self._errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
-            because = f"order below {order + half:.2f}: finer is hardly better"
-            yield self._row(": stalls", WHOLE, Status.FAIL, because, order=self._order)
+        most = fit.order + fit.margin
+        if self._errors[-1][1] > Grade.A.bound and most < STALLS_BELOW:
+            because = f"order below {most:.2f}: finer is hardly better"
+            yield self._row(": stalls", WHOLE, Status.FAIL, because, order=fit)
         claimed = self.solver.claimed_orders.get(self.asked.quantity)
-        if claimed is None:
-            return
-        least = claimed - ORDER_OFF
-        status = Status.INCONCLUSIVE if order + half >= least else Status.FAIL
-        because = f"order {order_text(order, half)}, claimed {claimed:g}"
-        yield self._row(
-            ": order",
-            WHOLE,
-            Status.PASS if order - half >= least else status,
-            because,
-            order=self._order,
-        )
+        if claimed is not None:
+            status = Status.of(fit.reaches(claimed))
+            because = f"order {order_text(*fit.interval)}, claimed {claimed:g}"
+            yield self._row(": order", WHOLE, status, because, order=fit)
 
     def _claimed_uncertainty(self, asked: AskedValue) -> Iterator[Row]:
         """Judge the standard uncertainty that a code states for a number: twice its value must

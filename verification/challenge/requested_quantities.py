@@ -15,7 +15,6 @@ from math import nan
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from contact_scene import Body, Scene
 from contact_scene.array_types import Vector
@@ -27,224 +26,104 @@ from contact_scene.stepping.load_path import (
 from verification.challenge.answer import Key
 from verification.problems.problem import ROUNDING
 
+# Gauss points between two kinks of a traction.
 NODES = 64
-
-
-@dataclass(frozen=True)
-class Half:
-    """Reference traction over an ellipse: a half-ellipsoid times a Chebyshev series.
-
-    With s = (x/b_x)² + (y/b_y)², the traction is coefficient · √(1 - s) Σ c_k T_k(2 s - 1), with
-    the Chebyshev polynomials T_k. A Hertz pressure has the single term c_0 = 1.
-
-    semi_axes    semi-axes b_x, b_y of the ellipse [length]
-    coefficient  amplitude of the traction [force/length²]
-    series       coefficients c_0, c_1, …
-    """
-
-    semi_axes: tuple[float, float]
-    coefficient: float
-    series: tuple[float, ...] = (1.0,)
-
-    def __call__(self, x: Vector, y: Vector) -> Vector:
-        """Compute the reference traction at points of the surface; it is zero outside the ellipse.
-
-        x, y  coordinates of the points, arrays of one shape [length]
-        """
-        b_x, b_y = self.semi_axes
-        s = np.minimum((x / b_x) ** 2 + (y / b_y) ** 2, 1.0)
-        shape = np.sqrt(1 - s) * chebyshev.chebval(2 * s - 1, self.series)
-        return np.asarray(self.coefficient * shape)
-
-    @property
-    def total(self) -> float:
-        """Force that the traction carries: its integral over the ellipse [force]."""
-        return self._integral(0)
-
-    @property
-    def spread(self) -> float:
-        """Second moment of the traction: the integral of (x² + y²) times the traction
-        [force*length²].
-
-        An answer to a challenge must have the same second moment.
-        """
-        return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
-
-    def _integral(self, power: int) -> float:
-        """Integrate s^power times the traction over the ellipse, where s is 0 at the centre and 1
-        at the edge.
-
-        Computes π b_x b_y coefficient ∫ s^power √(1 - s) Σ c_k T_k(2 s - 1) ds by Gauss quadrature
-        in √(1 - s). Power 0 gives the force; power 1 enters the second moment.
-        """
-        nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        root = 0.5 * (nodes + 1)  # √(1 - s); the integrand is smooth in it
-        shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
-        shape *= (1 - root**2) ** power
-        b_x, b_y = self.semi_axes
-        return float(np.pi * b_x * b_y * self.coefficient * np.sum(0.5 * weights * shape))
-
-
-@dataclass(frozen=True)
-class HalfEllipsoids:
-    """Reference traction that is a sum of half-ellipsoids, each times a Chebyshev series.
-
-    Represents Hertz pressures and the shear of partial slip, in which the stick zone is one term.
-
-    terms  half-ellipsoids, all centred at the origin
-    """
-
-    terms: tuple[Half, ...]
-
-    def at(self, x: Vector, y: Vector) -> Vector:
-        """Compute the reference traction at points of the surface [force/length²].
-
-        x, y  coordinates of the points, arrays of one shape [length]
-        """
-        return np.asarray(sum(term(x, y) for term in self.terms))
-
-    @property
-    def total(self) -> float:
-        """Force that the traction carries: its integral over the surface [force]."""
-        return sum(term.total for term in self.terms)
-
-    @property
-    def spread(self) -> float:
-        """Second moment of the traction: the integral of (x² + y²) times the traction
-        [force*length²].
-
-        An answer to a challenge must have the same second moment.
-        """
-        return sum(term.spread for term in self.terms)
-
-    @property
-    def semi_axes(self) -> tuple[float, float]:
-        """Semi-axes along x and y of the largest of the half-ellipsoids, which contains all others
-        [length]."""
-        return max(term.semi_axes for term in self.terms)
-
-    def document(self) -> dict[str, Any]:
-        """Return the reference traction as a JSON record for the file `reference.json` of a
-        challenge."""
-        terms = [
-            {"b": list(t.semi_axes), "coef": t.coefficient, "cheb": list(t.series)}
-            for t in self.terms
-        ]
-        return {"halves": terms}
-
-
-def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
-    """Create a reference traction as a sum of half-ellipsoids over circles around the origin.
-
-    terms  pairs of radius [length] and amplitude [force/length²]
-    """
-    return HalfEllipsoids(tuple(Half((b, b), coefficient) for b, coefficient in terms))
-
-
-def fitted(pressure: Callable[[Vector], Vector], radius: float, terms: int) -> HalfEllipsoids:
-    """Fit a rotationally symmetric pressure by one half-ellipsoid times a Chebyshev series.
-
-    The pressure must go to zero like a square root at the contact edge. The series interpolates the
-    quotient of pressure and half-ellipsoid at Chebyshev points.
-
-    pressure  pressure as a function of the distance from the axis [force/length²]
-    radius    contact radius [length]
-    terms     number of terms of the series
-    """
-    t = chebyshev.chebpts1(terms)
-    r = radius * np.sqrt(0.5 * (t + 1))
-    scale = float(pressure(np.zeros(1))[0])
-    values = pressure(r) / (scale * np.sqrt(0.5 * (1 - t)))
-    series = chebyshev.chebfit(t, values, terms - 1)
-    return HalfEllipsoids((Half((radius, radius), scale, tuple(float(c) for c in series)),))
-
-
 # Number of table intervals between two kinks.
 INTERVALS = 200
 
 
 @dataclass(frozen=True, eq=False)
-class RoundTable:
-    """Rotationally symmetric reference traction as a table over the radius, linear between the
-    radii.
+class Traction:
+    """Exact traction over an ellipse or a circle around the origin.
 
-    Used for tractions that `HalfEllipsoids` cannot represent, such as the shear in torsion.
-
-    radii   radii from 0 to the contact edge [length]
-    values  traction at these radii [force/length²]
+    values     traction as a function of the distance from the origin along x; curves of equal
+               traction are similar ellipses [force/length²]
+    semi_axes  semi-axes of the ellipse along x and y [length]
+    kinks      distances along x between 0 and the edge at which the traction or its slope jumps, in
+               increasing order [length]
     """
 
-    radii: Vector
-    values: Vector
+    values: Callable[[Vector], Vector]
+    semi_axes: tuple[float, float]
+    kinks: tuple[float, ...] = ()
 
     def at(self, x: Vector, y: Vector) -> Vector:
-        """Compute the reference traction at points of the surface; it is zero beyond the last
-        radius.
+        """Compute the traction at points of the surface; it is zero outside the ellipse.
 
         x, y  coordinates of the points, arrays of one shape [length]
         """
-        return np.interp(np.hypot(x, y), self.radii, self.values, right=0.0)
+        edge = self.semi_axes[0]
+        r = np.hypot(x, y / self._ratio)
+        return np.where(r < edge, self.values(np.minimum(r, edge)), 0.0)
 
     @property
     def total(self) -> float:
-        """Force that the traction carries: its integral over the loaded circle [force]."""
-        return self._integral(1)
+        """Force that the traction carries: its integral over the ellipse [force]."""
+        return 2 * np.pi * self._ratio * self._integral(1)
 
     @property
     def spread(self) -> float:
-        """Second moment of the traction: the integral of r² times the traction [force*length²].
+        """Second moment of the traction: the integral of (x² + y²) times the traction
+        [force*length²].
 
         An answer to a challenge must have the same second moment.
         """
-        return self._integral(3)
+        return np.pi * self._ratio * (1 + self._ratio**2) * self._integral(3)
 
     @property
     def torque(self) -> float:
-        """Torque about the axis, if the traction is circumferential: the integral of r times the
-        traction.
-
-        The unit is force*length.
-        """
-        return self._integral(2)
-
-    def _integral(self, power: int) -> float:
-        """Compute 2π ∫ q r^power dr of the tabulated traction q over the radius r, by Gauss
-        quadrature.
-
-        Power 1 gives the force, 2 the torque, 3 the second moment. Three points between two radii
-        make the rule exact, because q is linear between the radii and power is at most 3.
-        """
-        nodes, weights = np.polynomial.legendre.leggauss(3)
-        width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
-        r = middle[:, None] + 0.5 * width[:, None] * nodes
-        q = np.interp(r, self.radii, self.values)
-        return float(np.pi * np.sum(width[:, None] * weights * q * r**power))
+        """Torque about the axis of a circumferential traction over a circle [force*length]."""
+        return 2 * np.pi * self._integral(2)
 
     @property
-    def semi_axes(self) -> tuple[float, float]:
-        """Semi-axes of the loaded circle along x and y, both equal to its radius [length]."""
-        return float(self.radii[-1]), float(self.radii[-1])
+    def _ratio(self) -> float:
+        return self.semi_axes[1] / self.semi_axes[0]
+
+    def _between_kinks(self, parts: Vector) -> tuple[Vector, Vector]:
+        """Return distances along x between adjacent kinks, and the distances of these kinks.
+
+        Distances are dense near the kinks: root functions of the distance from a kink are smooth
+        functions of the part. The shape is (kinks, parts).
+
+        parts  positions from 0 at one kink to 1 at the next
+        """
+        ends = np.array([0.0, *self.kinks, self.semi_axes[0]])
+        width = np.diff(ends)[:, None]
+        return ends[:-1, None] + width * 0.5 * (1 - np.cos(np.pi * parts)), width
+
+    def _integral(self, power: int) -> float:
+        """Integrate values · r^power over the distance r along x by Gauss quadrature."""
+        nodes, weights = np.polynomial.legendre.leggauss(NODES)
+        parts = 0.5 * (nodes + 1)
+        r, width = self._between_kinks(parts)
+        steps = 0.25 * np.pi * width * np.sin(np.pi * parts) * weights
+        return float(np.sum(steps * self.values(r) * r**power))
 
     def document(self) -> dict[str, Any]:
-        """Return the table of the reference traction as a JSON record for the file
-        `reference.json`."""
-        return {"radii": self.radii.tolist(), "values": self.values.tolist()}
+        """Return the traction as a table in a JSON record for the file `reference.json`.
+
+        Values are rounded to a millionth of the largest: next to the root at the edge the last
+        digits differ between machines.
+        """
+        r, _ = self._between_kinks(np.arange(1, INTERVALS + 1) / INTERVALS)
+        radii = np.append(0.0, r)
+        values = self.values(radii)
+        largest = float(np.max(np.abs(values)))
+        return {
+            "semi_axes": list(self.semi_axes),
+            "radii": radii.tolist(),
+            "values": (np.round(values / largest, 6) * largest).tolist(),
+        }
 
 
-def tabulated(traction: Callable[[Vector], Vector], *kinks: float) -> RoundTable:
-    """Create a table of an axisymmetric traction over the radius, with dense radii near its kinks.
+def round_traction(values: Callable[[Vector], Vector], radius: float, *kinks: float) -> Traction:
+    """Create an exact traction over a circle.
 
-    traction  traction as a function of the distance from the axis [force/length²]
-    kinks     radii at which the traction or its slope jumps, in increasing order; the last is the
-              contact edge [length]
+    values  traction as a function of the distance from the axis [force/length²]
+    radius  radius of the circle [length]
+    kinks   radii at which the traction or its slope jumps, in any order; zeros do not count
     """
-    crowded = 0.5 * (1 - np.cos(np.pi * np.arange(INTERVALS + 1) / INTERVALS))  # at both ends
-    parts, start = [np.zeros(1)], 0.0
-    for end in kinks:
-        parts.append((start + (end - start) * crowded)[1:])
-        start = end
-    radii = np.concatenate(parts)
-    return RoundTable(radii, traction(radii))
+    return Traction(values, (radius, radius), tuple(sorted({one for one in kinks if one > 0})))
 
 
 Value = TypeVar("Value", float, tuple[float, float])
@@ -394,7 +273,7 @@ class AskedField(Asked):
     """
 
     meaning: str
-    traction: HalfEllipsoids | RoundTable
+    traction: Traction
     norm: str
     scale: float
     total: float

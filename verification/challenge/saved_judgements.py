@@ -132,7 +132,7 @@ def _quantity(row: Row) -> JudgedQuantity:
         allowed=row.bound or 0.0,
         status=row.status,
         answer=None if row.value is None else finite(row.value),
-        order=row.order,
+        order=None if row.order is None else row.order.interval,
     )
 
 

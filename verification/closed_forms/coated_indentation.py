@@ -40,25 +40,26 @@ PRESSURE_ORDER = 20
 
 @dataclass(frozen=True)
 class LayeredSurface:
-    """Represent the normal compliance of the surfaces of two layered bodies, in wavenumber space.
+    """Represent the compliance of the surfaces of two layered bodies, in wavenumber space.
 
-    compliance       F(k) of both bodies together [length³/force]: normal displacement per unit
-                     pressure of wavenumber k; a vectorised function
-    contact_modulus  E* of the outermost materials [force/length²]
-    thickness        thickness of the thinner outermost layer: the scale on which F approaches 2/(k
-                     E*) [length]
+    compliance  F(k) of both bodies together [length³/force]: displacement per unit traction of
+                wavenumber k, along the traction; a vectorised function
+    modulus     limit of 2/(k F) for short waves, which see the outermost materials: E* for pressure
+                [force/length²]
+    thickness   thickness of the thinner outermost layer: the scale on which F approaches this limit
+                [length]
     """
 
     compliance: Compliance
-    contact_modulus: float
+    modulus: float
     thickness: float
 
     def excess(self, k: Array) -> Array:
-        """Compute the relative change of the normal compliance by the layers at wavenumbers k [1].
+        """Compute the relative change of the compliance by the layers at wavenumbers k [1].
 
         The change X(k) - 1 = k E* F(k)/2 - 1 is relative to a half-space of the outermost material.
         """
-        return np.asarray(k * self.contact_modulus * self.compliance(k) / 2 - 1)
+        return np.asarray(k * self.modulus * self.compliance(k) / 2 - 1)
 
 
 @dataclass(frozen=True)
@@ -134,14 +135,14 @@ class LayeredIndentation:
     def _g(self, s: Array) -> Array:
         k = self.wavenumbers
         right = self.approach - s**2 / self.radius
-        E = self.surface.contact_modulus
+        E = self.surface.modulus
         return np.asarray(
             E / pi * right - 2 / pi * np.cos(np.multiply.outer(s, k)) @ self.transform
         )
 
     def _rate(self, s: Array) -> Array:
         k = self.wavenumbers
-        E = self.surface.contact_modulus
+        E = self.surface.modulus
         bent = np.sin(np.multiply.outer(s, k)) @ (k * self.transform)
         return np.asarray(-2 * E / pi * s / self.radius + 2 / pi * bent)
 
@@ -175,7 +176,7 @@ def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> Lay
     surface  normal compliance of the bodies
     radius   radius of curvature of the paraboloid [length]
     """
-    hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
+    hertz = float(np.cbrt(3 * load * radius / (4 * surface.modulus)))
 
     def excess(scale: float) -> float:
         return float(np.log(paraboloid(surface, radius, hertz * np.exp(scale)).load / load))
@@ -190,11 +191,11 @@ def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> Lay
 
 
 def _solve_fredholm(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
-    k, weight = _wavenumbers(a, surface.thickness)
+    k, weight = wavenumbers(a, surface.thickness)
     weighted = weight * surface.excess(k)
     s, weights = unit_gauss(_quadrature_order(a, surface.thickness))
     s, weights = a * s, a * weights
-    E = surface.contact_modulus
+    E = surface.modulus
     cosines = np.cos(np.outer(s, k))
     kernel = (cosines * weighted) @ cosines.T
     matrix = pi / E * np.eye(len(s)) + 2 / E * kernel * weights
@@ -223,7 +224,7 @@ def _quadrature_order(a: float, thickness: float) -> int:
     return 50 + int(4 * a / thickness)
 
 
-def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
+def wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
     """Return nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
 
     The rule extends to 24 over the layer thickness, where the effect of the layers has vanished.

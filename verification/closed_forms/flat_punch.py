@@ -18,70 +18,21 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FlatPunchContact:
-    """Hold the contact between a rigid flat punch and a half-space (Boussinesq; Johnson 1985, ch.
-    3.4).
+    """Hold the contact between a rigid flat punch and a half-space (Boussinesq; Johnson 1985, 3.4).
+
+    A pressure ∝ 1/√(a²-r²) displaces the disc below by a constant, and a pressure ∝ x/√(a²-r²) as a
+    plane (Galin's theorem for a polynomial of first degree; Sneddon 1951, § 52).
 
     contact_radius   punch radius a [length]
     contact_modulus  contact modulus E* [force/length²]
     load             normal load W >= 0 [force]
-    """
-
-    contact_radius: float
-    contact_modulus: float
-    load: float
-
-    @classmethod
-    def under_load(
-        cls, load: float, contact_radius: float, contact_modulus: float
-    ) -> FlatPunchContact:
-        """Create the contact of a flat punch under a normal load [force].
-
-        The order of the arguments is that of the other closed forms.
-        """
-        return cls(contact_radius, contact_modulus, load)
-
-    @property
-    def approach(self) -> float:
-        """Approach W/2E*a of distant points of the two bodies [length].
-
-        W is the normal load and a the punch radius.
-        """
-        return self.load / (2 * self.contact_modulus * self.contact_radius)
-
-    def pressure(self, r: ArrayLike) -> Array:
-        """Compute the pressure W/(2πa√(a²-r²)) of the punch at distance r from the axis
-        [force/length²].
-
-        W is the normal load and a the punch radius. The pressure is infinite at the rim and zero
-        outside.
-        """
-        return _rim_singular(self.load, self.contact_radius, r)
-
-
-def _rim_singular(force: float, a: float, r: ArrayLike) -> Array:
-    rho = np.abs(np.asarray(r, dtype=float))
-    inside = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(force / (2 * pi * a * np.sqrt(inside)))
-
-
-@dataclass(frozen=True)
-class TiltedPunch:
-    """Hold the contact of a rigid flat punch under an eccentric normal load (Sneddon 1951, § 52).
-
-    A pressure ∝ x/√(a²-r²) displaces the disc below as a plane, and a pressure ∝ 1/√(a²-r²) by a
-    constant (Galin's theorem for a polynomial of first degree).
-
-    contact_radius   punch radius a [length]
-    contact_modulus  contact modulus E* [force/length²]
-    load             normal load W > 0 [force]
     eccentricity     (e_x, e_y) of the load [length]; ValueError above a/3, where one side lifts off
     """
 
     contact_radius: float
     contact_modulus: float
     load: float
-    eccentricity: tuple[float, float]
+    eccentricity: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         if hypot(*self.eccentricity) > self.contact_radius / 3:
@@ -109,15 +60,18 @@ class TiltedPunch:
         e_x, e_y = self.eccentricity
         return self.load * e_x / stiffness, self.load * e_y / stiffness
 
-    def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """Compute the pressure of the tilted punch at points (x, y) [force/length²].
+    def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
+        """Compute the pressure of the punch at points (x, y) [force/length²].
 
         The pressure is W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²), infinite at the rim and zero
         outside.
         """
         a, (e_x, e_y) = self.contact_radius, self.eccentricity
         X, Y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-        upright = _rim_singular(self.load, a, np.hypot(X, Y))
+        r = np.hypot(X, Y)
+        inside = np.where(r <= a, (a - r) * (a + r), np.inf)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            upright = self.load / (2 * pi * a * np.sqrt(inside))
         return np.asarray(upright * (1 + 3 * (e_x * X + e_y * Y) / a**2))
 
 

@@ -32,7 +32,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
-from verification.closed_forms.quadrature import composite_gauss, unit_gauss
+from verification.closed_forms.coated_indentation import LayeredSurface, wavenumbers
+from verification.closed_forms.quadrature import unit_gauss
 
 ORDER = 120
 
@@ -217,36 +218,7 @@ def _reduced_moment(ratio: float) -> float:
 
 Array = NDArray[np.float64]
 
-# exp(-2 k h) is below 1e-20 from here on.
-REACH = 24.0
-PANEL_POINTS = 16
-PANEL_PHASE = 6.0
-# Number of halvings of the panel width towards k = 0, sufficient for modulus ratios up to 1e5.
-HALVINGS = 20
 LEAST_ORDER = 80
-
-
-@dataclass(frozen=True)
-class TorsionalSurface:
-    """Represent the torsional compliance of the surfaces of two coated bodies, in wavenumber space.
-
-    compliance         F(k) of both bodies together [length³/force]: circumferential displacement
-                       per unit shear of wavenumber k; a vectorised function
-    torsional_modulus  reciprocal of the sum of 1/G of the outermost materials [force/length²]
-    thickness          thickness of the thinner outermost layer [length]
-    """
-
-    compliance: Callable[[Array], Array]
-    torsional_modulus: float
-    thickness: float
-
-    def excess(self, k: Array) -> Array:
-        """Compute the relative change of the torsional compliance by the layers at wavenumbers k
-        [1].
-
-        The change X(k) - 1 = k G F(k) - 1 is relative to a half-space of the outermost material.
-        """
-        return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
 
 
 def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
@@ -274,14 +246,15 @@ class CoatedTorsion:
     A central disc sticks and rotates as a rigid body. In the annulus around it the shear is the
     friction limit.
 
-    surface         torsional compliance of the two bodies
+    surface         torsional compliance of the two bodies; its modulus is 2G, with the reciprocal G
+                    of the sum of 1/G of the outermost materials
     contact_radius  contact radius a > 0 [length]
     limit           friction limit µp as a function of the distance from the axis [force/length²],
                     falling like a square root towards r = a
     stick_radius    stick radius c, 0.1 a <= c < a [length]
     """
 
-    surface: TorsionalSurface
+    surface: LayeredSurface
     contact_radius: float
     limit: Callable[[Array], Array]
     stick_radius: float
@@ -297,7 +270,7 @@ class CoatedTorsion:
     def under_torque(
         cls,
         torque: float,
-        surface: TorsionalSurface,
+        surface: LayeredSurface,
         contact_radius: float,
         limit: Callable[[Array], Array],
     ) -> CoatedTorsion:
@@ -357,7 +330,7 @@ class CoatedTorsion:
         The integral equation is solved once for unit twist and once for the shear of the slip
         annulus alone. Continuity of h at the edge of the stick disc determines φ.
         """
-        G, c = self.surface.torsional_modulus, self.stick_radius
+        G, c = self.surface.modulus / 2, self.stick_radius
         s, weights = self._quadrature_nodes
         order = self._quadrature_order
         stick, slip = slice(order), slice(order, None)
@@ -376,7 +349,7 @@ class CoatedTorsion:
 
         s, t  positions between 0 and the contact radius [length]
         """
-        k, weight = self._wavenumbers
+        k, weight = wavenumbers(self.contact_radius, self.surface.thickness)
         weighted = weight * self.surface.excess(k)
         return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
 
@@ -407,16 +380,3 @@ class CoatedTorsion:
         a, c = self.contact_radius, self.stick_radius
         v, weights = unit_gauss(self._quadrature_order)
         return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
-
-    @cached_property
-    def _wavenumbers(self) -> tuple[Array, Array]:
-        """Nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
-
-        The rule extends to 24 over the layer thickness, where the effect of the layers has
-        vanished.
-        """
-        limit = REACH / self.surface.thickness
-        step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
-        fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)
-        bounds = np.concatenate([[0.0], fine, np.arange(step, limit, step), [limit]])
-        return composite_gauss(bounds, PANEL_POINTS)

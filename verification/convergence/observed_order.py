@@ -45,6 +45,19 @@ class ObservedOrder:
     half_width: float
     margin: float
 
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Order and half-width of its 95 % interval."""
+        return self.order, self.half_width
+
+    def reaches(self, promised: float) -> bool | None:
+        """Determine if the order is at least a claimed one, up to the allowed difference.
+
+        The result is None if the order is too uncertain for a verdict.
+        """
+        below = promised - self.order
+        return is_within(below - self.margin, below + self.margin, ORDER_OFF)
+
     def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
         """Return the largest accepted difference between the observed and the theoretical
         convergence order.
@@ -114,10 +127,22 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
     """
     if half_width > ORDER_WIDTH:
         return None
-    off = allowed if above < 0 else allowed - margin
-    if above < -off - margin or above > allowed:
+    if above > allowed:
         return False
-    return True if above >= margin - off else None
+    return is_within(-above - margin, -above + margin, allowed if above < 0 else allowed - margin)
+
+
+def is_within(least: float, most: float, allowed: float) -> bool | None:
+    """Determine if a number that lies between two bounds is at most the allowed value.
+
+    The result is None if the bounds do not decide. It is False if a bound is NaN.
+
+    least, most  bounds of the number at 95 %, such as an error without and with its uncertainty
+    allowed      largest accepted value
+    """
+    if most <= allowed:
+        return True
+    return None if least <= allowed else False
 
 
 def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedOrder:

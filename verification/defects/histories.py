@@ -176,7 +176,7 @@ HISTORIES = (
     Defect(
         "limit-by-direction",
         "The friction limit is 1 % smaller along y, and its residuals are zero.",
-        ("load_paths",),
+        ("same_surface",),
         replaces(admissible_shear, "magnitude")(
             lambda whole, v: whole(np.stack([v[0], 1.01 * v[1]]))
         )
@@ -185,13 +185,13 @@ HISTORIES = (
     Defect(
         "approach-when-unloading",
         "The approach is 5 % too small while the force falls.",
-        ("hertz_unloading",),
+        ("led_histories",),
         _approach_when_unloading,
     ),
     Defect(
         "dissipation-map",
         "The map of the dissipated energy is 5 % too large, its sum is not.",
-        ("load_paths",),
+        ("led_histories",),
         _scaled_slip_increase("dissipation", 1.05),
     ),
     Defect(
@@ -203,7 +203,7 @@ HISTORIES = (
     Defect(
         "way-slipped",
         "The accumulated slip is doubled.",
-        ("load_paths",),
+        ("led_histories",),
         _scaled_slip_increase("slip_distance", 2.0),
     ),
     Defect(
@@ -221,7 +221,7 @@ HISTORIES = (
     Defect(
         "elements-stored-energy",
         "The elastic energy by finite elements is 5 % too large.",
-        ("hertz_unloading",),
+        ("led_histories",),
         _stored_by_elements,
     ),
     Defect(
@@ -307,19 +307,19 @@ CONTACT_AND_FRICTION = (
     Defect(
         "gap-too-deep",
         "The undeformed gap is too deep by 0.3 %.",
-        ("dissimilar_bodies", "hertz_approach_control"),
+        ("hertz_approach_control",),
         _deep_gap,
     ),
     Defect(
         "force-scaled",
         "The normal force of an increment is 0.3 % below the prescribed force.",
-        ("dissimilar_bodies",),
+        ("led_histories",),
         _reduced_normal_force,
     ),
     Defect(
         "force-not-met",
         "Pressures add up to 0.1 % less than the normal force.",
-        ("dissimilar_bodies",),
+        ("hertz_approach_control",),
         replaces(admissible_pressure, "admissible_pressure")(
             lambda whole, *given: 0.999 * whole(*given)
         ),

@@ -1,4 +1,4 @@
-"""Seeded defects of results: wrong values, incomplete results, and wrong texts of reports."""
+"""Seeded defects of results: wrong values and incomplete results."""
 
 from __future__ import annotations
 
@@ -11,9 +11,6 @@ import numpy as np
 import fem_reference
 import semi_analytical
 from contact_results.directory.atomic_file import atomic_file
-from contact_results.files import tables
-from contact_results.stress import stress_maxima
-from verification.convergence import observed_order
 from verification.defects.defect import (
     Defect,
     Replacements,
@@ -21,104 +18,7 @@ from verification.defects.defect import (
     replaces,
     scaled_increments,
 )
-from verification.judging import judgement, outcome
 from verification.running import case_pool
-
-SIDES = {"above": "below", "below": "above"}
-
-
-def _shown_halved(text: str, field: str) -> Replacements:
-    @replaces(outcome, text)
-    def halved(whole: Any, verdict: Any) -> Any:
-        return whole(verdict.model_copy(update={field: 0.5 * getattr(verdict, field)}))
-
-    return halved
-
-
-@replaces(observed_order, "richardson")
-def _finest_exchanged(whole: Any, h: Any, f: Any, order: float) -> Any:
-    g = f.copy()
-    g[:2] = f[1::-1]
-    return whole(h, g, order)
-
-
-@replaces(observed_order, "_known_to")
-def _one_sided(whole: Any, *given: Any) -> Any:
-    order = whole(*given)
-    return replace(order, half_width=order.margin)
-
-
-@replaces(tables, "numbers", local=True)
-def _torque_for_twist(whole: Any, increment: Any) -> Any:
-    values = dict(whole(increment))
-    return values | {"torque": values["twist"], "twist": values["torque"]}
-
-
-@replaces(tables, "_largest_with_place")
-def _place_turned(whole: Any, *given: Any) -> Any:
-    value, x, y = whole(*given)
-    return value, y, x
-
-
-BY_HAND = ("worked_examples",)
-BY_FILES = ("written_files",)
-
-TOLD = (
-    Defect(
-        "uncertainty-shown-halved",
-        "The printed uncertainty of a reference is halved.",
-        BY_HAND,
-        _shown_halved("uncertainty_text", "reference_uncertainty"),
-    ),
-    Defect(
-        "allowed-shown-halved",
-        "The printed tolerance is halved.",
-        BY_HAND,
-        _shown_halved("_allowed_text", "allowed"),
-    ),
-    Defect(
-        "coverage-doubled",
-        "Tolerances are U = 4u.",
-        BY_HAND,
-        replaces(judgement, "expanded_uncertainty")(lambda whole, *given: 2 * whole(*given)),
-    ),
-    Defect(
-        "finest-levels-exchanged",
-        "Richardson extrapolation exchanges the two finest levels.",
-        BY_HAND,
-        _finest_exchanged,
-    ),
-    Defect("interval-one-sided", "95 % intervals omit 5 % on either side.", BY_HAND, _one_sided),
-    Defect(
-        "variance-inverted",
-        "Fits weight levels by h^p instead of its inverse.",
-        BY_HAND,
-        replaces(observed_order, "_line")(
-            lambda whole, h, f, order, weight_order: whole(h, f, order, -weight_order)
-        ),
-    ),
-    Defect(
-        "torque-for-twist",
-        "The columns of torque and twist are exchanged.",
-        BY_FILES,
-        _torque_for_twist,
-    ),
-    Defect(
-        "place-of-f1-turned",
-        "The coordinates x and y of the position of Ruiz's parameters are exchanged.",
-        BY_FILES,
-        _place_turned,
-    ),
-    Defect(
-        "sides-exchanged",
-        "Above and below an interface are exchanged.",
-        BY_FILES,
-        replaces(stress_maxima, "interface_sides")(
-            lambda whole, body: [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
-        ),
-    ),
-)
-
 
 BIAS = 3e-3
 FLOOR = 5e-4
@@ -191,7 +91,7 @@ def _half_record_written(whole: Any, self: Any, case: Any, record: Any) -> None:
         temporary.write_text(text[: len(text) // 2], encoding="utf-8")
 
 
-SEEN = ("dissimilar_bodies", "fem_hertz")
+SEEN = ("hertz_approach_control", "fem_hertz")
 PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 
 PLANTED = (
@@ -237,7 +137,7 @@ NO_RESULTS = (
     Defect(
         "record-truncated",
         "Half of the file with a finished case reaches the disk.",
-        ("dissimilar_bodies",),
+        ("hertz_approach_control",),
         _half_record_written,
     ),
 )

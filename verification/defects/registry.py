@@ -3,7 +3,7 @@
 from verification.defects.defect import Defect
 from verification.defects.finite_elements import FINITE_ELEMENTS, RADII
 from verification.defects.histories import CONTACT_AND_FRICTION, CONTROLS_AND_BODIES, HISTORIES
-from verification.defects.outputs import OUTPUTS, TOLD
+from verification.defects.outputs import OUTPUTS
 from verification.defects.surface_response import SURFACE_RESPONSE
 
 DEFECTS: dict[str, Defect] = {
@@ -16,6 +16,5 @@ DEFECTS: dict[str, Defect] = {
         *FINITE_ELEMENTS,
         *RADII,
         *OUTPUTS,
-        *TOLD,
     )
 }

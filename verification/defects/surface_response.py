@@ -159,25 +159,25 @@ SURFACE_RESPONSE = (
     Defect(
         "zero-wavenumber",
         "The kernel vanishes at wavenumber zero: mean displacements are lost.",
-        ("dissimilar_bodies",),
+        ("hertz_approach_control",),
         _zero_mean_displacement,
     ),
     Defect(
         "padding-removed",
         "Convolutions are not padded: the contact sees its periodic images.",
-        ("dissimilar_bodies",),
+        ("hertz_approach_control",),
         _periodic_images,
     ),
     Defect(
         "normal-bias",
         "Normal displacements are too large by 0.3 %.",
-        ("dissimilar_bodies", "hertz_approach_control"),
+        ("hertz_approach_control",),
         scaled_coefficients(NORMAL, 1.003),
     ),
     Defect(
         "normal-bias-stiff",
         "Normal displacements are too small by 0.3 %.",
-        ("dissimilar_bodies", "hertz_approach_control"),
+        ("hertz_approach_control",),
         scaled_coefficients(NORMAL, 1 / 1.003),
     ),
     Defect(

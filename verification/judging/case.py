@@ -559,32 +559,14 @@ def computed_error(
 
 
 @dataclass(frozen=True)
-class Finding:
-    """Number that the report of a case shows for information, with a remark and without a verdict.
-
-    run      label of the run on which the number is measured
-    measure  function from the result of the run to the number
-    remark   interpretation of the number
-    """
-
-    name: str
-    meaning: str
-    unit: str
-    run: str
-    measure: Callable[[Any], float]
-    remark: str
-
-
-@dataclass(frozen=True)
 class Case:
-    """Verification case: runs to solve, and all quantities that are judged or reported.
+    """Verification case: runs to solve, and all quantities that are judged.
 
     name         identifier for commands and files: letters, digits and underscores
     problem      description of the problem and of the source of its answer
     runs         solves of the case, by any solver
     quantities   numbers that are judged against references; a case may consist of these alone
     orders       orders of convergence that are judged
-    findings     numbers that are reported and not judged
     charts       function from the results, by label of the run, to the charts
     limits       limits of the conclusions from this case
     equations    governing equations of the reference, in LaTeX
@@ -598,7 +580,6 @@ class Case:
     runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...]
     orders: tuple[Order, ...] = ()
-    findings: tuple[Finding, ...] = ()
     charts: Callable[[Mapping[str, Any]], tuple[Chart, ...]] | None = None
     limits: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()

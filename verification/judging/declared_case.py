@@ -27,7 +27,6 @@ from verification.judging.case import (
     AnyRun,
     Case,
     Derived,
-    Finding,
     Followed,
     Level,
     NotYetAsymptotic,
@@ -782,29 +781,15 @@ class Falls:
     expected  expected order
     because   reason for the expected order
     not_yet   allowance for levels that are not asymptotic
-    meaning   description; default: that of the observable
     """
 
     what: Observable
     expected: float
     because: str
     not_yet: NotYetAsymptotic | None = None
-    meaning: str = ""
 
 
-@dataclass(frozen=True)
-class Reported:
-    """Row of a case that reports an observable without a verdict.
-
-    what    observable
-    remark  interpretation of the number
-    """
-
-    what: Observable
-    remark: str
-
-
-Row = Within | Refined | Falls | Reported
+Row = Within | Refined | Falls
 
 
 def at_stops(stops: Mapping[int, float], of: str, *rows: Row) -> tuple[Row, ...]:
@@ -826,19 +811,17 @@ class Judged:
     runs        runs to solve
     quantities  numbers that are judged against references
     orders      orders of convergence that are judged
-    findings    numbers that are reported and not judged
     equations   governing equations of the reference, in LaTeX
     """
 
     runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...] = ()
     orders: tuple[Order, ...] = ()
-    findings: tuple[Finding, ...] = ()
     equations: tuple[str, ...] = ()
 
 
 def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
-    """Expand the rows of one problem into runs, judged quantities, orders and reported numbers.
+    """Expand the rows of one problem into runs, judged quantities and orders.
 
     A case consists of one or more of these expanded parts. Separate runs without edge correction
     are kept only if a row needs them.
@@ -859,7 +842,6 @@ def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
         runs,
         quantities,
         tuple(_order(row, ladder) for row in rows if isinstance(row, Falls)),
-        tuple(_finding(row, ladder) for row in rows if isinstance(row, Reported)),
         ladder.problem.equations,
     )
 
@@ -894,7 +876,6 @@ def case(
     *parts: Judged,
     runs: tuple[AnyRun, ...] = (),
     quantities: tuple[Quantity, ...] = (),
-    findings: tuple[Finding, ...] = (),
     orders: tuple[Order, ...] = (),
     charts: Sequence[Drawing] = (),
     limits: tuple[str, ...] = (),
@@ -908,7 +889,7 @@ def case(
     title        title in reports
     problem      description of the problem and of the source of its answer
     parts        expanded rows on refinement levels; several parts may share runs
-    runs         further runs; likewise further quantities, findings and orders
+    runs         further runs; likewise further quantities and orders
     charts       functions from the results to one chart each
     limits       limits of the conclusions from this case
     equations    further governing equations, in LaTeX
@@ -922,7 +903,6 @@ def case(
         runs=tuple(dict.fromkeys((*(run for part in parts for run in part.runs), *runs))),
         quantities=(*(q for part in parts for q in part.quantities), *quantities),
         orders=(*(order for part in parts for order in part.orders), *orders),
-        findings=(*(f for part in parts for f in part.findings), *findings),
         charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
         limits=limits,
         equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),
@@ -992,22 +972,10 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
     return Order(
         name=f"order_of_{what.name}",
         of=what.of,
-        meaning=row.meaning or what.said(ladder.judged.words),
+        meaning=what.said(ladder.judged.words),
         levels=ladder.levels,
         error=what.error(ladder.problem),
         expected=row.expected,
         because=row.because,
         not_yet=row.not_yet,
-    )
-
-
-def _finding(row: Reported, ladder: RefinementLevels) -> Finding:
-    what, run = row.what, ladder.judged
-    return Finding(
-        what.verdict,
-        what.said(run.words),
-        what.unit,
-        run.label,
-        what.read(ladder.problem),
-        row.remark,
     )

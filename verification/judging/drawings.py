@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -25,63 +25,17 @@ from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacke
 from verification.judging.case import Run
 from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
 from verification.observed.ring_errors import SHOWN, at_radii
+from verification.problems.problem import Problem
 
-if TYPE_CHECKING:
-    from fem_reference import Increment
-
-
-Errors = Mapping[str, Sequence[float]]
 BELOW = 0.4  # lines of expected slopes run under the data, by this factor
-# levels that a line is drawn through
-LEAST = 4
-LEAST_JUDGED = 3
+LEAST = 4  # levels that a line is fitted to
 ALONG = 9  # points along a band, which is curved
-
-
-def convergence_chart(
-    name: str,
-    title: str,
-    caption: str,
-    spacings: Sequence[float],
-    errors: Errors,
-    slopes: Mapping[str, float],
-    x_label: str = "cell side / contact radius",
-    judged: Mapping[str, int] | None = None,
-) -> Chart:
-    """Create a chart of errors against cell size, with fitted lines and lines of the expected
-    orders.
-
-    spacings  cell sides over the contact radius (solves,); errors of equal sides are replaced by
-              their
-              root mean square
-    errors    relative errors (solves,) at these cell sides, of either sign, by name of the quantity
-    slopes    expected convergence order, by name of the quantity
-    judged    number of finest levels to which the line of a quantity is fitted, by name, because
-              the
-              order is judged on these; no line is drawn for fewer than 3 levels. Without an entry,
-    all
-              levels are fitted if there are at least 4
-    """
-    curves: list[Curve] = []
-    for series, (label, values) in enumerate(errors.items()):
-        sizes, root_mean_squares = by_size(spacings, values)
-        count = (judged or {}).get(label)
-        if count is None:
-            count = len(sizes) if len(sizes) >= LEAST else 0
-        curves += _error_curves(label, sizes, root_mean_squares, count, slopes.get(label), series)
-    panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
-    legend = (
-        "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
-        "lines. Dashed below: the expected slopes."
-    )
-    return stacked(name, title, f"{caption} {legend}", panel)
 
 
 def _error_curves(
     label: str,
     sizes: list[float],
     errors: list[float],
-    count: int,
     expected: float | None,
     series: int,
 ) -> list[Curve]:
@@ -90,19 +44,16 @@ def _error_curves(
     label     name of the quantity, for the legend
     sizes     cell sides over the contact radius
     errors    magnitudes of the relative error at these sizes
-    count     number of finest levels to which the line is fitted; with fewer than 3, points only
     expected  expected convergence order; None for no slope line
     series    number that determines the colour
     """
     ends = np.array([max(sizes), min(sizes)])
-    fitted = slice(len(sizes) - count, None)
-    if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
+    if len(sizes) < LEAST or min(errors) <= 0:
         curves = [curve(label, sizes, errors, Look.POINTS, series)]
         start = errors[int(np.argmax(sizes))]
     else:
-        line = error_line(sizes[fitted], errors[fitted])
-        told = order_text(line.observed.order, line.observed.half_width)
-        ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
+        line = error_line(sizes, errors)
+        told = order_text(*line.observed.interval)
         curves = [
             _confidence_band(line, ends, series),
             curve("", ends, line.at(ends), Look.FITTED, series),
@@ -174,57 +125,6 @@ class Section:
         return np.asarray(field[self._plotted_cells, self._section_row])
 
 
-@dataclass(frozen=True)
-class ProfileLabels:
-    """Texts of a profile chart: identifier, title, caption and axis labels."""
-
-    name: str
-    title: str
-    caption: str
-    y_label: str
-    x_label: str = "x / a"
-
-
-def _with_difference(
-    labels: ProfileLabels, profiles: Sequence[Curve], differences: Sequence[Curve]
-) -> Chart:
-    """Draw profiles, and computed minus exact values in a panel below."""
-    above = Panel(x_label="", y_label=labels.y_label, curves=tuple(profiles), height=2.6)
-    below = Panel(x_label=labels.x_label, y_label=f"Δ{labels.y_label}", curves=tuple(differences))
-    return stacked(labels.name, labels.title, labels.caption, above, below)
-
-
-def radial_chart(
-    labels: ProfileLabels,
-    radius: float,
-    scale: float,
-    increment: Increment,
-    traction: Field,
-    exact: tuple[Field, Field],
-) -> Chart:
-    """Create a chart of a finite element traction over the radius, with its reference.
-
-    The upper panel shows the traction and, in grey, the reference. The lower panel shows their
-    difference.
-
-    labels     texts of the chart
-    radius     contact radius, the unit of the abscissa [length]
-    scale      unit of the ordinate [force/length²]
-    increment  increment that the traction belongs to
-    traction   values at the rings of the increment [force/length²]
-    exact      radii [length] and values [force/length²] of the reference
-    """
-    shown = increment.radii <= SHOWN * radius
-    r, found = increment.radii[shown] / radius, traction[shown] / scale
-    known_r, known = exact[0] / radius, exact[1] / scale
-    difference = at_radii(increment, traction, exact[0]) / scale - known
-    profiles = (
-        curve("reference", known_r, known, Look.REFERENCE),
-        curve("finite elements", r, found, Look.COMPUTED),
-    )
-    return _with_difference(labels, profiles, (curve("", known_r, difference, Look.COMPUTED),))
-
-
 # Number of points of an exact profile in a chart.
 POINTS = 120
 
@@ -249,6 +149,26 @@ class Drawn:
 PRESSURE = Drawn(lambda end: end.pressure, lambda exact: exact.pressure)
 
 
+# Coordinates and computed field, coordinates and exact field, and their difference at the latter.
+Profile = tuple[tuple[Field, Field], tuple[Field, Field], Field]
+
+
+def _along_section(result: Any, problem: Problem, one: Drawn) -> Profile:
+    section = Section(result.grid, problem.radius)
+    found = section.of(one.found(result.steps[one.step]))
+    exact = one.exact(problem.ends[one.step])
+    known = problem.on_surface(exact, section.x, section.y)
+    return (section.x, found), (section.x, known), found - known
+
+
+def _over_rings(result: Any, problem: Problem, one: Drawn) -> Profile:
+    end, answer = result.steps[one.step], problem.ends[one.step]
+    shown, found = end.radii <= SHOWN * problem.radius, one.found(end)
+    r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))
+    known = one.exact(answer)(r)
+    return (end.radii[shown], found[shown]), (r, known), at_radii(end, found, r) - known
+
+
 def profile(
     ladder: RefinementLevels,
     name: str,
@@ -262,7 +182,7 @@ def profile(
     fields.
 
     The function receives the results of a case by run label. On cells the chart shows the row of
-    cells next to y = 0. On rings it shows one field over the radius.
+    cells next to y = 0, on finite elements the values over the radius.
 
     ladder   refinement levels, of which the judged run is drawn
     name     file name of the chart
@@ -273,39 +193,23 @@ def profile(
     problem, run = ladder.problem, ladder.judged
     fields = drawn or (PRESSURE,)
 
+    on_cells = isinstance(run, Run)
+    read = _along_section if on_cells else _over_rings
+
     def draw(results: Mapping[str, Any]) -> Chart:
-        result = results[run.label]
-        if isinstance(run, Run):
-            section = Section(result.grid, problem.radius)
-            x = section.x / problem.radius
-            found = [section.of(one.found(result.steps[one.step])) / unit for one in fields]
-            known = [
-                problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y) / unit
-                for one in fields
-            ]
-            profiles = [
-                curve("closed form" if n == 0 else "", x, exact, Look.REFERENCE)
-                for n, exact in enumerate(known)
-            ]
-            differences = []
-            for n, (one, computed) in enumerate(zip(fields, found, strict=True)):
-                profiles.append(curve(one.label, x, computed, Look.COMPUTED, n))
-                differences.append(curve("", x, computed - known[n], Look.COMPUTED, n))
-            labels = ProfileLabels(name, title, caption, y_label)
-            return _with_difference(labels, profiles, differences)
-        (one,) = fields
-        end, answer = result.steps[one.step], problem.ends[one.step]
-        r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))
-        exact = one.exact(answer)(r)
-        labels = ProfileLabels(name, title, caption, y_label, "r / a")
-        return radial_chart(
-            labels,
-            problem.radius,
-            unit,
-            end,
-            one.found(end),
-            (r, exact),
-        )
+        references, profiles, differences = [], [], []
+        for n, one in enumerate(fields):
+            (x, found), (places, known), off = read(results[run.label], problem, one)
+            x, places = x / problem.radius, places / problem.radius
+            label = ("closed form" if on_cells else "reference") if n == 0 else ""
+            references.append(curve(label, places, known / unit, Look.REFERENCE))
+            label = one.label if on_cells else "finite elements"
+            profiles.append(curve(label, x, found / unit, Look.COMPUTED, n))
+            differences.append(curve("", places, off / unit, Look.COMPUTED, n))
+        above = Panel(x_label="", y_label=y_label, curves=(*references, *profiles), height=2.6)
+        across = "x / a" if on_cells else "r / a"
+        below = Panel(x_label=across, y_label=f"Δ{y_label}", curves=tuple(differences))
+        return stacked(name, title, caption, above, below)
 
     return draw
 
@@ -317,7 +221,6 @@ def convergence(
     title: str,
     caption: str,
     also: Sequence[Observable] = (),
-    beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
     """Return a function that draws relative errors of observables over the cell or element side h.
 
@@ -328,28 +231,29 @@ def convergence(
     rows    rows of the case; those of type Falls have an expected slope
     name    file name of the chart
     also    observables whose errors are drawn without an expected slope
-    beside  further refinement levels with equal sizes, by the name of their curves
     """
     cells = isinstance(ladder.judged, Run)
     unit = ladder.problem.radius if cells else 1.0
-    expected = {row.what.label: row for row in rows if isinstance(row, Falls)}
-    ladders = {"": ladder} | {f", {of}": other for of, other in (beside or {}).items()}
-    errors = (*(row.what for row in expected.values()), *also)
+    spacings = [run.spacing / unit for run in ladder.followed]
+    expected = {row.what: row.expected for row in rows if isinstance(row, Falls)}
 
     def draw(results: Mapping[str, Any]) -> Chart:
-        found = {
-            f"{one.label}{of}": [one.error(other.problem)(results[run]) for run in other.levels]
-            for one in errors
-            for of, other in ladders.items()
-        }
-        return convergence_chart(
-            name,
-            title,
-            caption,
-            [run.spacing / unit for run in ladder.followed],
-            found,
-            {label: row.expected for label, row in expected.items()},
-            f"{'cell' if cells else 'element'} side / contact radius",
+        curves: list[Curve] = []
+        for series, one in enumerate((*expected, *also)):
+            error = one.error(ladder.problem)
+            # Errors of equal sizes are replaced by their root mean square.
+            sizes, means = by_size(spacings, [error(results[run]) for run in ladder.levels])
+            curves += _error_curves(one.label, sizes, means, expected.get(one), series)
+        panel = Panel(
+            x_label=f"{'cell' if cells else 'element'} side / contact radius",
+            y_label="relative error",
+            curves=tuple(curves),
+            logarithmic=True,
         )
+        legend = (
+            "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of "
+            "the lines. Dashed below: the expected slopes."
+        )
+        return stacked(name, title, f"{caption} {legend}", panel)
 
     return draw

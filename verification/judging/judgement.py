@@ -47,14 +47,13 @@ from verification.judging.outcome import (
     SOLVED,
     VIOLATION,
     CaseOutcome,
-    FindingRecord,
     OrderRecord,
     RunRecord,
     SceneRecord,
     Status,
     Verdict,
     finite,
-    order_status,
+    status_of_difference,
 )
 from verification.judging.tested_parameters import dimensionless_parameters
 from verification.observed.contact_state import Imbalance
@@ -73,8 +72,7 @@ def judge_quantity(
 ) -> Verdict:
     """Judge a number against its reference.
 
-    A value that is not finite fails. A pass with a tolerance below the uncertainty of the reference
-    is inconclusive. A tolerance that is derived from refinement is computed first.
+    A value that is not finite fails. A tolerance that is derived from refinement is computed first.
 
     quantity  measured number, reference and tolerance
     case      case of the quantity
@@ -106,8 +104,7 @@ def _error_scale(quantity: Quantity) -> float:
 
 def _make_verdict(quantity: Quantity, value: float, kind: str, allowed: float) -> Verdict:
     reference, scale = quantity.reference, _error_scale(quantity)
-    error, least = abs(value - reference.value) / scale, reference.uncertainty / scale
-    passed = Status.PASS if least <= allowed else Status.INCONCLUSIVE
+    error = abs(value - reference.value) / scale
     return Verdict(
         name=quantity.name,
         run=quantity.run,
@@ -125,7 +122,7 @@ def _make_verdict(quantity: Quantity, value: float, kind: str, allowed: float) -
         scale_name=quantity.scale_name,
         tolerance_kind=kind,
         because=quantity.tolerance.because,
-        status=passed if error <= allowed else Status.FAIL,  # NaN compares as a failure
+        status=status_of_difference(error, allowed, reference.uncertainty / scale),
     )
 
 
@@ -194,7 +191,7 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
         f"promised{allowance}, and not known to be as much higher; it is "
         f"judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
         f"{len(errors)} {'changes' if study.apart else 'levels'}{runs}",
-        status=order_status(kept),
+        status=Status.of(kept),
         interval=None if observed is None else observed.half_width,
         margin=None if observed is None else observed.margin,
         order=OrderRecord(
@@ -422,18 +419,6 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         scenes=_describe_scenes(case, results),
         runs=tuple(_run_record(r, case, results[r.label]) for r in case.runs if r.label in results),
         verdicts=(*failures, *_judge_case(case, results)),
-        findings=tuple(
-            FindingRecord(
-                name=f.name,
-                run=f.run,
-                meaning=f.meaning,
-                unit=f.unit,
-                value=finite(f.measure(results[f.run])),
-                remark=f.remark,
-            )
-            for f in case.findings
-            if f.run in results
-        ),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
         equations=case.equations,

@@ -6,14 +6,19 @@ import math
 import sys
 from collections.abc import Iterator
 from enum import StrEnum
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import Field, model_validator
 
 from contact_scene.quantities.summary import EffectSummary
 from contact_scene.reading.description import Description
 from contact_scene.reading.engineering_units import engineering_unit
-from verification.convergence.observed_order import ORDER_WIDTH, order_is_kept, order_text
+from verification.convergence.observed_order import (
+    ORDER_WIDTH,
+    is_within,
+    order_is_kept,
+    order_text,
+)
 from verification.exhibits.chart import NOT_FINITE, Chart, plain, value_text
 from verification.judging.case import Followed, Refinement
 from verification.solver import Method, Solver
@@ -176,6 +181,28 @@ class Status(StrEnum):
     FAIL = "fail"
     INCONCLUSIVE = "inconclusive"
 
+    @classmethod
+    def of(cls, kept: bool | None) -> Status:
+        """Convert an answer to a status; None, an answer that the data do not decide, is
+        inconclusive.
+        """
+        if kept is None:
+            return cls.INCONCLUSIVE
+        return cls.PASS if kept else cls.FAIL
+
+
+def status_of_difference(error: float, allowed: float, uncertainty: float) -> Status:
+    """Judge the difference of a number from its reference by the tolerance of a case.
+
+    The tolerance limits the difference, and thus contains the uncertainty of the reference: many
+    tolerances are twice this uncertainty. A tolerance below one standard uncertainty cannot contain
+    it, so that a difference within the tolerance is inconclusive. NaN fails.
+
+    error, allowed, uncertainty  difference, tolerance and standard uncertainty of the reference,
+                                 over the error scale
+    """
+    return Status.of(is_within(error, max(error, uncertainty), allowed))
+
 
 class OrderRecord(Description):
     """Record of the data from which an order of convergence was computed: sizes and errors of the
@@ -310,8 +337,7 @@ def _contradiction(verdict: Verdict) -> str:
     if verdict.covered is not _error_is_covered(verdict):
         return f"it is covered: {verdict.covered}, but it states {verdict.stated_error}"
     status = _status_by_numbers(verdict)
-    doubtful = verdict.status is Status.INCONCLUSIVE and verdict.allowed < verdict.least
-    if verdict.status is not status and not (doubtful and status is Status.PASS):
+    if verdict.status is not status:
         return (
             f"its status is {verdict.status}, but an error of {verdict.error} where "
             f"{verdict.allowed} is allowed is {status}"
@@ -339,37 +365,10 @@ def _status_by_numbers(verdict: Verdict) -> Status:
     if verdict.interval is not None and verdict.margin is not None:
         assert verdict.value is not None
         above = verdict.value - verdict.reference
-        return order_status(order_is_kept(above, verdict.allowed, verdict.interval, verdict.margin))
+        return Status.of(order_is_kept(above, verdict.allowed, verdict.interval, verdict.margin))
     if verdict.interval is not None and verdict.interval > ORDER_WIDTH:
         return Status.INCONCLUSIVE
-    return Status.PASS if verdict.error <= verdict.allowed else Status.FAIL
-
-
-def order_status(kept: bool | None) -> Status:
-    """Convert the judgement of an order of convergence to pass, fail or inconclusive.
-
-    kept  True if the observed order agrees with the expected order, False if not, None if the
-          observed order is too uncertain
-    """
-    if kept is None:
-        return Status.INCONCLUSIVE
-    return Status.PASS if kept else Status.FAIL
-
-
-class FindingRecord(Description):
-    """Record of a number that a report shows with a remark and does not judge.
-
-    The number is null if it is not finite.
-    """
-
-    name: str
-    run: str
-    meaning: str
-    unit: str
-    value: float | None
-    remark: str
-    regression: Change | None = None
-    """Against the recorded value; null if the case has no baseline of this level."""
+    return status_of_difference(verdict.error, verdict.allowed, verdict.least)
 
 
 class RunRecord(Description):
@@ -430,7 +429,7 @@ class SceneRecord(Description):
 
 
 class CaseOutcome(Description):
-    """Record of a judged verification case: scenes, runs, verdicts, reported numbers and charts."""
+    """Record of a judged verification case: scenes, runs, verdicts and charts."""
 
     name: str
     title: str
@@ -438,7 +437,6 @@ class CaseOutcome(Description):
     scenes: tuple[SceneRecord, ...]
     runs: tuple[RunRecord, ...]
     verdicts: tuple[Verdict, ...]
-    findings: tuple[FindingRecord, ...]
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
     equations: tuple[str, ...] = ()
@@ -455,6 +453,14 @@ class CaseOutcome(Description):
 
     gone: tuple[Gone, ...] = ()
     """What was recorded and is not measured any more."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _leave_out_findings(cls, given: Any) -> Any:
+        """Leave out the numbers without a verdict that older records have."""
+        if not isinstance(given, dict):
+            return given
+        return {name: value for name, value in given.items() if name != "findings"}
 
     @model_validator(mode="after")
     def _names_runs_that_it_has(self) -> CaseOutcome:

@@ -73,32 +73,6 @@ def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
     return np.asarray(np.sign(squared) * np.sqrt(np.abs(squared)))
 
 
-def largest_error(
-    increment: Increment,
-    traction: Field,
-    answer: Any,
-    exact: Callable[[Field], Field],
-    start: float,
-    end: float,
-) -> float:
-    """Compute the largest error of a finite element traction between two radii [force/length²].
-
-    The points are the rings, or the radii of the exact answer if it is tabulated.
-
-    increment  increment with the radii of the rings
-    traction   values at the rings (rings,) [force/length²]
-    answer     exact answer; a tabulated one has the attribute `radii`
-    exact      exact traction as a function of the radius
-    start      smallest radius [length]
-    end        largest radius [length]
-    """
-    tabulated = getattr(answer, "radii", None)
-    r = increment.radii if tabulated is None else tabulated
-    found = traction if tabulated is None else at_radii(increment, traction, r)
-    judged = (r >= start) & (r <= end)
-    return float(np.max(np.abs(found - exact(r))[judged]))
-
-
 def between_rings(increment: Increment, radius: float) -> Field:
     """Return integration points between the rings of finite elements, 40 per element [length].
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.integrate import quad
 
-from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, LoadStep, Scene
+from contact_scene import FlatPunch, IsotropicMaterial, LoadStep
 from contact_scene.array_types import Field
 from verification.closed_forms.cattaneo_mindlin import (
     CycledContact,
@@ -38,6 +38,7 @@ from verification.problems.problem import (
     frictional,
     paraboloid,
     partial_slip,
+    pressed,
     pressing,
     tangential_step,
 )
@@ -413,15 +414,13 @@ PUNCH_RADIUS = 0.4e-3
 # q/p is largest at the rim, 3M/(2Wa) = 0.45: nothing slips.
 STUCK_TORQUE = 0.3 * NORMAL_FORCE * PUNCH_RADIUS
 STUCK = Problem(
-    Scene(
-        title="Flat punch in torsion without slip",
-        indenter=FlatPunch(radius=PUNCH_RADIUS, material=STEEL),
-        body=Body(material=STEEL),
-        friction=CoulombFriction(coefficient=1.0),
-        loading=(
-            pressing(1),
-            LoadStep(torque=STUCK_TORQUE, increments=1),
-        ),
+    pressed(
+        "Flat punch in torsion without slip",
+        FlatPunch(radius=PUNCH_RADIUS, material=STEEL),
+        STEEL,
+        pressing(1),
+        LoadStep(torque=STUCK_TORQUE, increments=1),
+        friction=1.0,
     ),
     (None, StuckTorsion(PUNCH_RADIUS, MODULUS, STUCK_TORQUE)),
     PUNCH_RADIUS,

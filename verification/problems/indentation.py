@@ -30,7 +30,6 @@ from verification.problems.problem import (
     coated,
     exact_contact,
     film,
-    frictionless,
     half_space,
     paraboloid,
     pressed,
@@ -64,7 +63,7 @@ def hertzian(scene: Scene) -> Problem:
 
 
 def _pressed_ball(title: str, load: LoadStep) -> Problem:
-    return hertzian(frictionless(title, paraboloid(STEEL), STEEL, load))
+    return hertzian(pressed(title, paraboloid(STEEL), STEEL, load))
 
 
 BALL = _pressed_ball("Ball on a half-space (paper's data, paraboloid)", pressing())
@@ -80,7 +79,7 @@ PRESS = pressing()
 
 UNDER_CONE = ConeContact.under_load(NORMAL_FORCE, SLOPE, CONTACT_MODULUS)
 CONE = Problem(
-    frictionless(
+    pressed(
         "Cone on a half-space (flank at 1°)", Cone(slope_angle=SLOPE, material=STEEL), STEEL, PRESS
     ),
     (UNDER_CONE,),
@@ -92,7 +91,7 @@ CONE = Problem(
     ),
 )
 PUNCH = Problem(
-    frictionless(
+    pressed(
         "Flat punch on a half-space", FlatPunch(radius=PUNCH_RADIUS, material=STEEL), STEEL, PRESS
     ),
     (FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE),),
@@ -113,7 +112,7 @@ def mean_pressure(of: Problem) -> float:
 RADII = (90e-3, 18e-3)
 EXACT = EllipticalContact.under_load(NORMAL_FORCE, RADII, CONTACT_MODULUS)
 BARREL = Problem(
-    frictionless(
+    pressed(
         "Barrel on a half-space (radii 90 mm and 18 mm)",
         Ellipsoid(radii=RADII, material=STEEL),
         STEEL,

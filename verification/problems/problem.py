@@ -82,18 +82,6 @@ def paraboloid(material: IsotropicMaterial) -> Paraboloid:
     return Paraboloid(radius=RADIUS, material=material)
 
 
-def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: LoadStep) -> Scene:
-    """Create the scene of an indenter on a homogeneous half-space without friction, in one load
-    step.
-
-    title     title of the scene
-    indenter  shape and material of the indenter
-    body      material of the half-space
-    load      load step
-    """
-    return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
-
-
 def frictional(
     title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep
 ) -> Scene:
@@ -107,13 +95,7 @@ def frictional(
     body      material of the half-space
     loading   load steps after the normal loading
     """
-    return Scene(
-        title=title,
-        indenter=indenter,
-        body=Body(material=body),
-        friction=CoulombFriction(coefficient=FRICTION),
-        loading=(pressing(1), *loading),
-    )
+    return pressed(title, indenter, body, pressing(1), *loading, friction=FRICTION)
 
 
 def pressing(increments: int | None = None) -> LoadStep:
@@ -195,20 +177,24 @@ def half_space(poisson_ratio: float) -> Body:
 
 
 def pressed(
-    title: str, indenter: Indenter, body: Body, *loading: LoadStep, friction: float | None = None
+    title: str,
+    indenter: Indenter,
+    body: Body | IsotropicMaterial,
+    *loading: LoadStep,
+    friction: float | None = None,
 ) -> Scene:
     """Create the scene of an indenter on a body under given load steps.
 
     title     title of the scene
     indenter  shape and material of the indenter
-    body      lower body, homogeneous or coated
+    body      lower body, or the material of a half-space
     loading   load steps; default: one step to a normal force of 1 kN
     friction  coefficient of friction µ; None or zero: no friction
     """
     return Scene(
         title=title,
         indenter=indenter,
-        body=body,
+        body=body if isinstance(body, Body) else Body(material=body),
         friction=CoulombFriction(coefficient=friction) if friction else None,
         loading=loading or (pressing(),),
     )

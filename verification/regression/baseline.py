@@ -20,7 +20,6 @@ from verification.judging.case import Level
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     Count,
-    FindingRecord,
     Status,
     Verdict,
 )
@@ -43,7 +42,7 @@ class BaselineRefused(Refused):
 BASELINE_VERSION = 1
 COUNTERS = ("increments", "iterations", "convolutions", "factorizations")
 
-Key = tuple[str, ...]
+Key = tuple[str, str, str]
 
 
 class RecordedQuantity(Description):
@@ -115,21 +114,6 @@ class JudgedQuantity(RecordedQuantity):
 Judged: TypeAlias = Verdict | JudgedQuantity
 
 
-class RecordedFinding(Description):
-    """Recorded value of a number that a verification case reports without a verdict, in a
-    baseline."""
-
-    name: str
-    run: str
-    unit: str
-    value: float | None
-
-    @property
-    def key(self) -> Key:
-        """Key of the number in its verification case: name and run."""
-        return key_of(self)
-
-
 class RecordedRun(Description):
     """Recorded work of one solve of a verification case, in a baseline.
 
@@ -167,7 +151,6 @@ class Recording(Description):
     by: RecordedBy
     status: Status
     quantities: tuple[RecordedQuantity, ...]
-    findings: tuple[RecordedFinding, ...]
     runs: tuple[RecordedRun, ...]
 
 
@@ -182,16 +165,14 @@ class Baseline(Description):
     levels: dict[str, Recording]
 
 
-def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding) -> Key:
-    """Return the key that identifies a number in its case: kind, name, run and kind of tolerance.
+def key_of(number: Verdict | RecordedQuantity) -> Key:
+    """Return the key that identifies a number in its case: name, run and kind of tolerance.
 
     Results are compared with the recorded number of the same key. The run is omitted for residuals
     and similar numbers, which may come from any run.
     """
     run = "" if number.name in FOUND_IN_A_RUN else number.run
-    if isinstance(number, Verdict | RecordedQuantity):
-        return ("quantity", number.name, run, number.tolerance_kind)
-    return ("finding", number.name, run)
+    return number.name, run, number.tolerance_kind
 
 
 def keys_of(recorded: Recording | None) -> set[str]:
@@ -199,10 +180,8 @@ def keys_of(recorded: Recording | None) -> set[str]:
 
     The result is empty without a recording.
     """
-    if recorded is None:
-        return set()
-    keys = (*(one.key for one in recorded.quantities), *(one.key for one in recorded.findings))
-    return {f"{name} [{run}]" for _, name, run, *_ in keys}
+    quantities = () if recorded is None else recorded.quantities
+    return {f"{name} [{run}]" for name, run, _ in (one.key for one in quantities)}
 
 
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
@@ -217,9 +196,6 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
         quantities=tuple(
             RecordedQuantity(**_fields(RecordedQuantity, v) | {"allowed": v.most_allowed})
             for v in case.verdicts
-        ),
-        findings=tuple(
-            RecordedFinding(**_fields(RecordedFinding, finding)) for finding in case.findings
         ),
         runs=tuple(RecordedRun(**_fields(RecordedRun, run)) for run in case.runs),
     )

@@ -14,7 +14,6 @@ from verification.judging.outcome import (
     Change,
     ChangeKind,
     CounterChange,
-    FindingRecord,
     Gone,
     GoneCase,
     Origin,
@@ -30,7 +29,6 @@ from verification.regression.baseline import (
     Judged,
     Key,
     RecordedBy,
-    RecordedFinding,
     RecordedQuantity,
     Recording,
     key_of,
@@ -45,7 +43,7 @@ if TYPE_CHECKING:
 SAME_DIGITS = 1e-8  # relative difference of equal references
 # Processors and versions end solves at other iterates within their tolerance (1e-8), and what is
 # measured on them may differ by somewhat more. Less than that is no change on any machine.
-NOISE = 1e-6  # relative to the error scale, or to the value of a finding
+NOISE = 1e-6  # relative to the error scale
 NOISE_OF_TOLERANCE = 0.01
 SAME_COUNT = 0.05  # relative; solves may end an iteration earlier or later
 TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
@@ -84,25 +82,6 @@ def quantity_change(verdict: Judged, was: RecordedQuantity | None, origin: Origi
         since=origin.name,
         remark="; ".join(_remarks(verdict, was)),
     )
-
-
-def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
-    """Classify the change of a number without a verdict since its recorded value.
-
-    Integers are treated as counts and may change by 5 %.
-
-    finding  present value
-    was      recorded number; None if none is recorded
-    origin   commit and date of the recording
-    """
-    if was is None:
-        return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
-    values = [value or 0.0 for value in (finding.value, was.value)]
-    counts = all(value.is_integer() for value in values)
-    noise = (SAME_COUNT if counts else NOISE) * max(map(abs, values))
-    same = _difference(finding.value, was.value) <= noise
-    kind = ChangeKind.UNCHANGED if same else ChangeKind.DRIFT
-    return Change(kind=kind, was=was.value, since=origin.name)
 
 
 def _kind(verdict: Judged, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
@@ -320,26 +299,18 @@ def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy
             differs=tuple(_differences(recorded.by, made_by)),
         )
     quantities = {one.key: one for one in recorded.quantities} if recorded else {}
-    findings = {one.key: one for one in recorded.findings} if recorded else {}
 
-    def change_of(number: Verdict | FindingRecord) -> Change | None:
-        key = key_of(number)
-        if origin is None:
-            return None
-        if isinstance(number, Verdict):
-            return quantity_change(number, quantities.get(key), origin)
-        return finding_change(number, findings.get(key), origin)
+    def change_of(verdict: Verdict) -> Change | None:
+        was = quantities.get(key_of(verdict))
+        return None if origin is None else quantity_change(verdict, was, origin)
 
     return case.model_copy(
         update={
             "baseline": origin,
-            **{
-                name: tuple(
-                    number.model_copy(update={"regression": change_of(number)})
-                    for number in getattr(case, name)
-                )
-                for name in ("verdicts", "findings")
-            },
+            "verdicts": tuple(
+                verdict.model_copy(update={"regression": change_of(verdict)})
+                for verdict in case.verdicts
+            ),
             "counts": tuple(counter_changes(case, recorded)) if recorded else (),
             "gone": tuple(_gone(case, recorded)) if recorded else (),
         }
@@ -348,12 +319,7 @@ def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy
 
 def _gone(case: CaseOutcome, recorded: Recording) -> Iterator[Gone]:
     present: set[Key] = {key_of(verdict) for verdict in case.verdicts}
-    present |= {key_of(finding) for finding in case.findings}
-    numbers: tuple[RecordedQuantity | RecordedFinding, ...] = (
-        *recorded.quantities,
-        *recorded.findings,
-    )
-    for number in numbers:
+    for number in recorded.quantities:
         if number.key not in present:
             yield Gone(name=number.name, run=number.run, unit=number.unit, was=number.value)
     labels = {run.label for run in case.runs}

@@ -9,16 +9,14 @@ of its case.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory.json_record import read_record, write_record
 from contact_scene.reading.description import Description
-from verification.judging.outcome import (
-    Status,
-    Verdict,
-)
+from verification.judging.outcome import Verdict, status_of_difference
 from verification.regression.baseline import RESTORE, BaselineRefused, key_of
 
 if TYPE_CHECKING:
@@ -122,12 +120,12 @@ def _judge_by_tolerance(verdict: Verdict, known: tuple[Tolerance, Acceptance] | 
     allowed = max(tolerance.allowed, verdict.least)
     if allowed >= verdict.allowed:
         return verdict
-    passes = verdict.error is not None and verdict.error <= allowed
+    error = math.nan if verdict.error is None else verdict.error
     return verdict.model_copy(
         update={
             "allowed": allowed,
             "bound": verdict.allowed,
-            "status": Status.PASS if passes else Status.FAIL,
+            "status": status_of_difference(error, allowed, verdict.least),
             "because": f"{verdict.because}; of the bound {verdict.allowed:.2g} so much is allowed: "
             + (
                 f"{TIMES:g} times the error {tolerance.error:.2g} ({acceptance.because})"
@@ -237,5 +235,5 @@ def text_of(verdict: Verdict) -> str:
 
     Accepted tolerances are stored by this key.
     """
-    _, name, run, kind = key_of(verdict)
+    name, run, kind = key_of(verdict)
     return f"{name} [{run}] {kind}"

@@ -269,7 +269,7 @@ def row_texts(row: Row) -> tuple[str, ...]:
         WHOLE if row.error is None else f"{row.error:.2e}",
         WHOLE if row.bound is None else f"{row.bound:.3g}",
         row.grade or WHOLE,
-        WHOLE if row.order is None else order_text(*row.order),
+        WHOLE if row.order is None else order_text(*row.order.interval),
         row.because,
     )
 

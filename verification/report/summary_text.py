@@ -20,7 +20,6 @@ from verification.judging.outcome import (
     WORDS,
     CaseOutcome,
     ChangeKind,
-    FindingRecord,
     Origin,
     Status,
     Verdict,
@@ -260,8 +259,7 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
     """
     if case.baseline is None:
         return
-    numbers: tuple[Verdict | FindingRecord, ...] = (*case.verdicts, *case.findings)
-    for number in numbers:
+    for number in case.verdicts:
         change = number.regression
         if change is not None:
             was = value_text(change.was, number.unit, DIGITS) if change.recorded else ABSENT

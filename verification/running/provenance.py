@@ -176,7 +176,6 @@ class Provenance(Description):
     """Wall seconds by case."""
 
 
-SOURCE = Path(__file__).resolve().parents[2]
 SECONDS_FOR_GIT = 10
 
 
@@ -212,11 +211,11 @@ def _git(*arguments: str) -> str | None:
 
     arguments  command of git with its options
     """
-    if not (SOURCE / ".git").exists():
+    if not (ROOT / ".git").exists():
         return None
     try:
         answer = subprocess.run(
-            ["git", "-C", str(SOURCE), *arguments],
+            ["git", "-C", str(ROOT), *arguments],
             capture_output=True,
             text=True,
             timeout=SECONDS_FOR_GIT,

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, Self, TypeVar
+from typing import Any, Protocol, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -81,18 +81,13 @@ class TypedRow(Description):
     and booleans become `counters`, other numbers become `measures`.
     """
 
-    PARAMETERS: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields that are stored as parameters."""
-
     def row(self) -> Row:
         """Convert the object with typed values to a `Row`, the form in which a study stores its
         rows."""
         values = self.model_dump(mode="json")
-        parameters = {name: values.pop(name) for name in self.PARAMETERS}
         words = {name: value for name, value in values.items() if isinstance(value, str)}
         counters = {name: int(value) for name, value in values.items() if isinstance(value, int)}
         return Row(
-            parameters=parameters,
             measures={n: v for n, v in values.items() if n not in words and n not in counters},
             counters=counters,
             words=words,
@@ -183,7 +178,7 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
         FINDINGS: [_csv_line(row) for row in findings],
         SECONDS: [dict(zip((CASE, "seconds", "repeats"), line, strict=True)) for line in clock],
     }
-    return {name: _csv_text(lines) for name, lines in files.items() if lines}
+    return {name: csv_text(lines) for name, lines in files.items() if lines}
 
 
 def _rows_by_case(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
@@ -208,8 +203,8 @@ def _csv_line(row: Row) -> Cells:
     }
 
 
-def _csv_text(lines: Iterable[Cells]) -> str:
-    """Write the lines of a table of a study as CSV text, with a column for every name in any line.
+def csv_text(lines: Iterable[Cells]) -> str:
+    """Write the lines of a table as CSV text, with a column for every name in any line.
 
     lines  cells of each line by column name
     """

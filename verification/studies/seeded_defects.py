@@ -43,8 +43,6 @@ LAWS = {RESIDUAL: "residual", VIOLATION: "law", IMBALANCE: "law"}
 class FailedVerdict(TypedRow):
     """Verdict of a verification case that failed: the judged quantity, the run and the reason."""
 
-    PARAMETERS = ("quantity", "run")
-
     quantity: str
     run: str
     how: str

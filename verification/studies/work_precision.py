@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -175,14 +174,6 @@ def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     return norms.shear_error(areas * surface.vector(end, "shear"), areas * known, limit)
 
 
-@cache
-def _sheared_problem(increments: int) -> Problem:
-    problem = sheared("Cattaneo-Mindlin, ν = 0", (SHEARED,))
-    press, push = problem.scene.loading
-    loading = (press, push.model_copy(update={"increments": increments}))
-    return replace(problem, scene=problem.scene.model_copy(update={"loading": loading}))
-
-
 def _largest_error(
     at: Callable[[Any, Field], Field], exact: Callable[[Any], Callable[[Field], Field]], scale: str
 ) -> Observable:
@@ -220,7 +211,7 @@ CATTANEO = PreciseContact(
     "Cattaneo-Mindlin, ν = 0",
     {"shear": "shear at 0.9 µW, Σ|q - q_exact| / Σµp", "shift": "shift over the sliding shift"},
     (SHEAR, SHIFT),
-    _sheared_problem,
+    lambda increments: sheared("Cattaneo-Mindlin, ν = 0", (SHEARED,), increments=increments),
 )
 COATING = PreciseContact(
     "coated",
