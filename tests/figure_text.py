@@ -27,7 +27,9 @@ def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]
             yield from _words(axes)
             for artist in axes.get_children():
                 if (numbers := _drawn(artist)) is not None:
-                    yield f"{type(artist).__name__} {artist.get_label()}: {array_text(numbers)}"
+                    look = f" {artist.get_interpolation()}" if isinstance(artist, AxesImage) else ""
+                    name = f"{type(artist).__name__} {artist.get_label()}{look}"
+                    yield f"{name}: {array_text(numbers)}"
             if legend := axes.get_legend():
                 yield f"legend: {' | '.join(text.get_text() for text in legend.get_texts())}"
 

@@ -66,7 +66,8 @@ def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
         friction=CoulombFriction(coefficient=5.0),
         loading=(LoadStep(normal_force=1e3, increments=4),),
     )
-    with pytest.raises(NotConverged, match="coefficient of friction of 5 only the last"):
+    with pytest.raises(NotConverged, match="coefficient of friction of 5 only the last") as ended:
         radial.solve(asked)
+    assert ended.value.tolerance == 0.0 < ended.value.residual
     weaker = asked.model_copy(update={"friction": CoulombFriction(coefficient=2.0)})
     assert radial.solve(weaker).steps[0].stick_radius is not None
