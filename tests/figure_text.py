@@ -27,7 +27,8 @@ def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]
             yield from _words(axes)
             for artist in axes.get_children():
                 if (numbers := _drawn(artist)) is not None:
-                    yield f"{type(artist).__name__} {artist.get_label()}: {array_text(numbers)}"
+                    name = f"{type(artist).__name__} {artist.get_label()}{_look(artist)}"
+                    yield f"{name}: {array_text(numbers)}"
             if legend := axes.get_legend():
                 yield f"legend: {' | '.join(text.get_text() for text in legend.get_texts())}"
 
@@ -38,6 +39,13 @@ def _words(part: Any) -> Iterator[str]:
         for x in part.texts
         if isinstance(x, Text) and x.get_text()
     )
+
+
+def _look(artist: Any) -> str:
+    """Properties of an artist of matplotlib that its numbers do not show."""
+    if isinstance(artist, AxesImage):
+        return f" {artist.get_interpolation()}"
+    return f" scale {artist.scale:g}" if isinstance(artist, Quiver) else ""
 
 
 def _drawn(artist: Any) -> Any:

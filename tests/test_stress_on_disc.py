@@ -77,6 +77,13 @@ def test_below_a_ball_it_is_hubers(depth: float) -> None:
         assert_allclose(ours, theirs, rtol=0, atol=1e-11)
 
 
+def test_the_surface_has_the_fields_just_below_it() -> None:
+    """Away from the edge, where the pressure has a vertical tangent."""
+    radii = np.array([0.0, 0.2, 0.6, 0.9, 1.2, 2.5])
+    surface, under = below(BARE).compute_fields([Level(0.0, 0), Level(1e-8, 0)], radii)
+    assert_allclose(surface, under, rtol=0, atol=1e-6)
+
+
 @given(modulus=st.floats(0.1, 10.0), thickness=st.floats(0.1, 2.0), ratio=st.floats(-0.5, 0.5))
 def test_an_interface_carries_what_it_is_given(
     modulus: float, thickness: float, ratio: float

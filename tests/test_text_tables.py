@@ -143,6 +143,12 @@ def test_a_damaged_table_is_refused_alike_for_every_use(
         USES[use](path)
 
 
+def test_rows_without_numbers_below_a_single_row_are_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("\n".join([*PLAIN.splitlines()[:2], ",,,,", ",,,,", ""]), encoding="utf-8")
+    assert [len(column) for column in read_columns(path, POINTS).values()] == [1, 1, 1]
+
+
 @pytest.mark.parametrize("word", ["", "nan", "#N/A", "***"])
 def test_a_missing_value_is_filled_in_heights_alone(word: str, tmp_path: Path) -> None:
     path = tmp_path / "table.csv"
