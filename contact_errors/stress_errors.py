@@ -223,7 +223,9 @@ def stress_errors(
     # Shear that points to the axis grows to the friction limit over the radius of the stick zone.
     small_stick = state.shear_turns and (state.stick_radius or 0.0) < STICK * near
     for extreme in found:
-        largest, by_shear, by_section = 0.0, 0.0, 0.0
+        largest = 0.0
+        by_shear = 0.0
+        by_section = 0.0
         unresolved = False
         key = extreme.region, extreme.measure
         if on_wider:
