@@ -35,7 +35,7 @@ def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]
 
 def _words(part: Any) -> Iterator[str]:
     yield from (
-        f"text: {x.get_text()}".replace("\n", " / ")
+        f"{'text' if x.get_parse_math() else 'plain'}: {x.get_text()}".replace("\n", " / ")
         for x in part.texts
         if isinstance(x, Text) and x.get_text()
     )
