@@ -81,7 +81,7 @@ AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 SMALL_STICK = "the stress has a peak at the centre of a stick zone that is not resolved"
-THIN = "a layer is thinner than two elements of the contact"
+THIN_LAYER = "a layer near the surface is thinner than two elements of the contact"
 NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
 # Ratio of the sections of finite elements that are compared, as for the scalars of the contact.
@@ -220,8 +220,6 @@ def stress_errors(
     infinite = state.scene is not None and is_singular(state.scene.indenter)
     measures = field.points.measures
     thin = _has_thin_layer(response)
-    # Shear that points to the axis grows to the friction limit over the radius of the stick zone.
-    small_stick = state.shear_turns and (state.stick_radius or 0.0) < STICK * near
     for extreme in found:
         largest = 0.0
         by_shear = 0.0
@@ -256,8 +254,8 @@ def stress_errors(
             (extreme.at_window_edge, AT_WINDOW_EDGE),
             (unresolved, UNRESOLVED),
             (infinite and shallow and not tension, INFINITE),
-            (thin, THIN),
-            (small_stick and shallow and hypot(extreme.x, extreme.y) < near, SMALL_STICK),
+            (thin, THIN_LAYER),
+            (_has_small_stick(state, extreme, near), SMALL_STICK),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
         sizes: dict[Part, float] = {part: largest, "increments": by_shear, "section": by_section}
@@ -322,12 +320,36 @@ def _stated(
 
 
 def _has_thin_layer(response: BodyResponse) -> bool:
-    """Return True if the elements of a contact do not resolve a layer of the body."""
-    asked, radius = response.state.discretisation, response.state.contact_radius
-    if asked is None or radius is None:
+    """Return True if the elements of a contact do not resolve a layer of the body near the surface.
+
+    Adjacent layers of equal constants are one layer.
+    """
+    state = response.state
+    if state.discretisation is None or state.scene is None:
         return False
-    least = THICKNESS * radius / asked.elements_per_radius
-    return any(layer.thickness < least for layer in response.body.layers)
+    from fem_reference.compliance.gauss_points import POINTS_PER_EDGE
+
+    radii = state.axes[state.radial]
+    least = THICKNESS * float(radii[POINTS_PER_EDGE if radii[0] else 1] - radii[0])
+    top = 0.0
+    for layer in (state.scene.indenter if response.indenter else state.scene.body).layers:
+        if top < least and layer.thickness < least:
+            return True
+        top += layer.thickness
+    return False
+
+
+def _has_small_stick(state: LoadedBodies, extreme: Extreme, near: float) -> bool:
+    """Return True if a stress lies at the centre of a stick zone that is not resolved.
+
+    Shear that points to the axis, or around it, grows to the friction limit over the radius of the
+    stick zone.
+
+    near  distance up to which a point is near the centre [length]
+    """
+    if max(extreme.depth, hypot(extreme.x, extreme.y)) >= near or not state.shear_turns:
+        return False
+    return (state.stick_radius or 0.0) < STICK * near
 
 
 def _largest_traction(state: LoadedBodies) -> float:
@@ -420,7 +442,9 @@ def _stress_errors_on_disc(
 
     state = response.state
     state = state if is_sheared(state) else replace(state, by_increments=0.0)
-    by_rings = (state.by_rings or 0.0) if is_sheared(state) else 0.0
+    # Shear that depends on the angle is computed at few rings.
+    by_rings = (state.by_rings or 0.0) if is_sheared(state) and "angles" in state.axes else 0.0
+    near = NEAR * _traction_cell_width(state)
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
@@ -438,7 +462,11 @@ def _stress_errors_on_disc(
         size = OF_FINER * abs(again[e.measure][k] - e.value)
         size += by_rings * abs(e.value) + _between_levels(points, measures[e.measure], e)
         by_shear = abs(more[e.measure][k] - again[e.measure][k])
-        reason = AT_WINDOW_EDGE if e.at_window_edge else None
+        doubts = (
+            (e.at_window_edge, AT_WINDOW_EDGE),
+            (_has_small_stick(state, e, near), SMALL_STICK),
+        )
+        reason = next((why for doubtful, why in doubts if doubtful), None)
         sizes = {response.part: size, "increments": by_shear}
         errors.append(_stated(state, e.value, sizes, reason))
     return tuple(errors)

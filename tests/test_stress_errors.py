@@ -23,7 +23,7 @@ from fem_scenes import elements
 import slipstick as package
 from contact_errors.stress_errors import (
     SMALL_STICK,
-    THIN,
+    THIN_LAYER,
     largest_stresses,
     stress_at,
     stress_errors,
@@ -210,17 +210,23 @@ def test_the_shear_of_pressing_has_an_error_that_no_scalar_shows(solver: Any, sh
     assert of_scalars < 0.1 * part / exact * result.steps[-1].approach
 
 
-@pytest.mark.parametrize(("elements", "resolved"), [(1.9, False), (2.2, True)])
+@pytest.mark.parametrize(
+    ("films", "force", "resolved"),
+    [((1.9,), 1e3, False), ((1.2, 1.2), 1e3, True), ((1.2,), 1e2, False), ((5.0, 1.0), 1e3, True)],
+)
 def test_elements_that_do_not_resolve_a_film_leave_its_stress_open(
-    elements: float, resolved: bool
+    films: tuple[float, ...], force: float, resolved: bool
 ) -> None:
-    film = Layer(thickness=elements / 16 * A, material=steel(0.3, 400e9))
+    """Elements are those of the largest contact. Equal films are one, deep ones do not count."""
+    layers = [{"thickness": film / 16 * A, "material": steel(0.3, 400e9)} for film in films]
+    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1, LoadStep(normal_force=force))
+    posed = posed.replace({"body": {"material": steel(0.3, 210e9), "layers": layers}})
     asked = FiniteElementDiscretisation(elements_per_radius=16)
-    result = package.solve(indented(0.018, 1e3, film, steel(0.3, 210e9), 0.1), "fem", asked)
+    result = package.solve(posed, "fem", asked)
     state = state_of_result(result, None, stated_errors(result))
     field = body_response(state).stress()
     errors = stress_errors(state, field, extremes(field))
-    assert any(error.reason == THIN for error in errors) != resolved
+    assert any(error.reason == THIN_LAYER for error in errors) != resolved
 
 
 @pytest.mark.parametrize(("friction", "resolved"), [(0.02, False), (0.2, True)])
@@ -237,7 +243,8 @@ def test_a_small_stick_zone_leaves_the_stress_at_its_centre_open(
 
 
 def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
-    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1)
+    push_ = LoadStep(tangential_force=(50.0, 0.0), increments=1)
+    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1, push_)
     state = state_of_result(package.solve(posed, "radial"), None)
     field = body_response(state).stress([0.3 * A])
     found = extremes(field)[:1]

@@ -120,6 +120,24 @@ def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way: Any, rigid: bool) 
         assert getattr(soft, name) == getattr(stiff, name) * unit**of_stress, name
 
 
+def test_a_largest_stress_of_elements_is_found_on_both_sides_of_the_load() -> None:
+    """Shear like 1 + sin θ, and its mirror image."""
+    state = state_of_result(slipstick.solve(scene(PRESS), "fem"), None)
+    pressure, radii = state.tractions["pressure"][:, None], state.axes["radii"][:, None] / A
+    angles = np.arange(16) * np.pi / 8
+    found = []
+    for side in (-1, 1):
+        shear = -0.5 * pressure * radii**2 * (1 + side * np.sin(angles))
+        tractions = {"pressure": pressure + 0 * angles, "shear_radial": shear}
+        one_sided = replace(state, tractions=tractions, axes={**state.axes, "angles": angles})
+        largest = extremes(body_response(one_sided).stress())
+        found.append(next(one for one in largest if one.measure == "max_principal"))
+    left, right = found
+    assert left.value == pytest.approx(right.value, rel=1e-6)
+    assert left.y == pytest.approx(-right.y, rel=1e-6)
+    assert abs(left.y) > 0.5 * A
+
+
 @pytest.mark.parametrize("solver", ["radial", "fem"])
 def test_a_largest_stress_is_found_in_whatever_plane_it_lies(solver: Any) -> None:
     """Shear like cos 2θ, and the same turned by a right angle out of the plane of the load."""

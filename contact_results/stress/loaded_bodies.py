@@ -46,8 +46,8 @@ class NoSuchState(Refused):
 
 
 ROUNDING = 1e-9  # relative to the approach: smaller shifts are round-off
-# Scalars whose errors, beside that of the largest pressure, show those of the pressure, and those
-# of pressure and shear.
+# Scalars whose errors show the error of the pressure, or the errors of pressure and shear. That of
+# the peak pressure is always compared.
 OF_PRESSURE = ("approach",)
 OF_TRACTIONS = ("approach", "tangential_shift", "twist")
 
@@ -66,7 +66,7 @@ class LoadedBodies:
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the pressure relative to the pressure; None if unknown
-    shear_error     the same of the shear
+    shear_error     increment error of the shear relative to the shear; None if unknown
     by_rings        error of the tractions of the radial solver by its rings, relative to the
                     tractions; 0 for other solvers; None if unknown
     by_map          error of the tractions by the points of a measured indenter, relative to the

@@ -193,7 +193,8 @@ class StepSummary(Quality, ClosedCycle, State):
 
     shear_error: Ratio | None = None
     """Error of the shear traction by the increments: its root mean square over the surface,
-    relative to that of the shear; null for a run without error estimates, and if it is unknown."""
+    relative to that of the shear; null for a run without error estimates, and if it is unknown. It
+    may exceed 1 where all sticks and increments are few."""
 
 
 class EffectSummary(Description):
