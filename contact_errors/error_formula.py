@@ -31,7 +31,7 @@ out, because a change of the load moves its edge to another place.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import exp, pi, sqrt
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 
 from contact_results.cycles import fretting_cycles
 from contact_scene import LoadRamp, Scene
-from contact_scene.body_pair import coupling
+from contact_scene.body_pair import coupling, dundurs_beta
 from contact_scene.contact_features import (
     AT_EDGES,
     CONTACT_EDGE,
@@ -382,15 +382,18 @@ class SolvedRun:
 
         The slip zone may then be smaller than a cell in all compared solves. The edge slips if
         shear acts or has acted, or friction acts on unlike bodies. It does not under loads that
-        grow together, and below a rim of bodies without coupling.
+        grow together, and below a rim of bodies without coupling, or if friction makes the annulus
+        of slip at this rim narrow.
         """
         scene, shears, found = self.scene, False, []
         coupled = scene.friction is not None and coupling(scene)[0]
-        slips = coupled or (scene.friction is not None and scene.indenter.rim is None)
+        smooth = scene.friction is not None and scene.indenter.rim is None
+        at_rim = _annulus_of_pressing(scene) if coupled and not smooth else 0.0
         for ramp, features in zip(scene.load_path(), self.features, strict=True):
             loaded = any(ramp.tangential.end) or ramp.twisting.end or ramp.strains
             shears = shears or coupled or bool(loaded and not grows_without_slip(scene, ramp))
             narrow = features.annulus is None or features.annulus < NARROWEST
+            slips = smooth or at_rim * features.contact > NARROWEST
             found.append(slips and shears and bool(features.stick) and narrow)
         return found
 
@@ -450,6 +453,16 @@ class SolvedRun:
             else:
                 parts[part] = np.max(sizes, axis=0)
         return parts
+
+
+def _annulus_of_pressing(scene: Scene) -> float:
+    """Estimate the width of the annulus of slip below a pressed indenter, in contact radii."""
+    beta, mu = dundurs_beta(scene), scene.friction.uniform if scene.friction else None
+    if not beta or mu is None:  # layers, or another law of friction: any width
+        return 1.0
+    # Half-spaces have K(c/a)/K'(c/a) = µ/β for the radius c of the stick zone (Spence 1973). If the
+    # annulus is narrow, K = ln(4/k') and K' = π/2: 1 - c/a = k'²/2 with k' = 4 exp(-π µ/2β).
+    return min(1.0, (4 * exp(-pi * mu / abs(2 * beta))) ** 2 / 2)
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:

@@ -340,13 +340,8 @@ def _has_thin_layer(response: BodyResponse) -> bool:
 
 
 def _has_small_stick(state: LoadedBodies, extreme: Extreme, near: float) -> bool:
-    """Return True if a stress lies at the centre of a stick zone that is not resolved.
-
-    Shear that points to the axis, or around it, grows to the friction limit over the radius of the
-    stick zone.
-
-    near  distance up to which a point is near the centre [length]
-    """
+    """Return True if a stress lies within `near` of the centre of an unresolved stick zone."""
+    # Shear to the axis, or around it, reaches the friction limit at the radius of the stick zone.
     if max(extreme.depth, hypot(extreme.x, extreme.y)) >= near or not state.shear_turns:
         return False
     return (state.stick_radius or 0.0) < STICK * near

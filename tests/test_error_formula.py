@@ -120,6 +120,11 @@ HISTORIES = {
         {"stick": 9.0},
         True,
     ),
+    "sticky rim": (
+        scene(PRESS, indenter=INDENTERS["flat punch"], body=steel(0.1), friction=5.0),
+        {"stick": 9.0},
+        False,
+    ),
     "frictionless": (scene(PRESS, body=steel(0.1), friction=None), {"stick": 9.0}, False),
 }
 

@@ -152,11 +152,8 @@ class OnSection(BodyResponse):
 
 
 def _section_points(field: SectionField) -> StressPoints:
-    """Return the stress points of both halves of a finite element section through the z axis.
-
-    One half is on the ray along the load, the other on the opposite ray. `at_edge` is False
-    everywhere, because the mesh reaches so far that it represents a half-space.
-    """
+    """Return the stress points of a section through the z axis, on the rays along the load
+    and opposite to it."""
     halves = [_ray_points(field, theta) for theta in (0.0, pi)]
     kind, cells = field.cells
     both = np.concatenate([cells, cells + field.points.shape[1]])
@@ -164,12 +161,7 @@ def _section_points(field: SectionField) -> StressPoints:
 
 
 def _ray_points(field: SectionField, theta: float) -> StressPoints:
-    """Return the stress points of the finite element section on one ray from the z axis.
-
-    The components of cylindrical axes become those of x, along the load, y and z.
-
-    theta  angle of the ray from the load
-    """
+    """Return the stress points on the ray at an angle from the load, in axes with x along it."""
     r, depth = field.points
     none = np.zeros_like(r)
     moved, stressed = field.displacement(theta), field.stress(theta)
