@@ -158,6 +158,8 @@ class LoadedBodies:
     @property
     def shear_turns(self) -> bool:
         """True if the shear acts in all directions: less than half of it adds up to a force."""
+        if self.on_rings and "angles" not in self.axes:  # equal on all sides, or along the load
+            return not np.any(self.tractions.get("shear_along_load", 0.0))
         given: Any = SimpleNamespace(**{**dict.fromkeys(TRACTIONS), **self.tractions})
         shear = self.surface.vector(given, "shear")
         if shear is None:
