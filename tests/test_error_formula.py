@@ -11,6 +11,7 @@ from contact_scenes import (
     INDENTERS,
     LOAD,
     PRESS,
+    paraboloid,
     push,
     scene,
     steel,
@@ -21,11 +22,13 @@ import contact_errors
 from contact_errors.error_formula import (
     Comparison,
     SolvedRun,
+    _annulus_of_pressing,
     build_stated_error,
     characteristic_size,
     largest_so_far,
 )
 from contact_scene import (
+    RIGID,
     FiniteElementDiscretisation,
     RadialDiscretisation,
     Scene,
@@ -39,6 +42,7 @@ from fem_reference import Method
 from fem_reference import Path as ElementPath
 from fem_reference.discretised import ElementSolver
 from radial.discretised import RingSolver
+from verification.references import load_reference
 
 NATURAL = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
 
@@ -61,6 +65,13 @@ def approach(size: float) -> list[dict]:
 def errors_of_one(comparisons: list[Comparison], features: Features) -> StatedError:
     """Error of an approach of 2."""
     return stated(scene(PRESS), approach(2.0), comparisons, features)[0]["approach"]
+
+
+def test_the_annulus_of_pressing_is_nearly_that_of_spence() -> None:
+    """It decides if slip at a rim may hide: its order of magnitude counts."""
+    row = load_reference("frictional_indentation_homogeneous")["rows"][1]
+    posed = scene(PRESS, indenter=paraboloid(RIGID), body=steel(row["nu"]), friction=row["mu"])
+    assert 1 < (1 - row["c_over_a"]) / _annulus_of_pressing(posed) < 1.5
 
 
 def test_a_worked_example() -> None:
