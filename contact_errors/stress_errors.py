@@ -427,7 +427,7 @@ def _stress_errors_on_disc(
 
     The stresses at the same points are computed again with twice the numbers of Legendre orders and
     quadrature points. The differences yield the errors, with the excess of a maximum between the
-    depths of the points, and with the error of the tractions with shear by their rings.
+    depths of the points. Tractions that depend on the angle add their error by the rings.
 
     response  body below the tractions of the radial solver
     points    points of the stress field
