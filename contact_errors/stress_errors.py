@@ -25,9 +25,10 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 """
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from math import hypot, inf, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +59,7 @@ from contact_results.stress.stress_maxima import (
     Extreme,
     extremes,
 )
-from contact_scene import Scene
+from contact_scene import RadialDiscretisation, Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
 from contact_scene.discretised import PRECISION
@@ -68,6 +69,10 @@ from contact_scene.quantities.stated_error import (
     StatedErrors,
 )
 from contact_scene.solver_errors import SolverError, UnsupportedScene
+from radial.discretised import RingSolver
+
+if TYPE_CHECKING:
+    from semi_analytical.frf.depth import Level
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]
@@ -190,7 +195,8 @@ def stress_errors(
     """
     response = body_response(state, indenter=indenter)
     if state.pressed is not None:
-        return _stress_errors_on_disc(response, field.points, found)
+        assert isinstance(response, OnDisc)
+        return _stress_errors_on_disc(response, field.points, found, at_depths=at_depths)
     part = response.part
     errors: list[StatedError] = []
     known = None if at_depths else _reference_maxima(state, found, indenter)
@@ -421,42 +427,54 @@ def _traction_cell_width(state: LoadedBodies) -> float:
 
 
 def _stress_errors_on_disc(
-    response: BodyResponse, points: StressPoints, found: Sequence[Extreme]
+    response: OnDisc, points: StressPoints, found: Sequence[Extreme], *, at_depths: bool
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
-    The stresses at the same points are computed again with twice the numbers of Legendre orders and
+    The stresses at the same places are computed again with twice the numbers of Legendre orders and
     quadrature points. The differences yield the errors, with the excess of a maximum between the
-    depths of the points. Tractions that depend on the angle add their error by the rings.
+    depths of the points. If the tractions depend on the number of rings, the stresses below the
+    tractions of two solves with fewer rings are compared as well. The place of a largest stress
+    near the surface moves with the edge of the contact.
 
-    response  body below the tractions of the radial solver
-    points    points of the stress field
-    found     largest stress of each region and measure among these points
+    response   body below the tractions of the radial solver
+    points     points of the stress field
+    found      largest stress of each region and measure among these points
+    at_depths  true if `found` are largest stresses at chosen depths
     """
     from semi_analytical.frf.depth import Level
 
     state = response.state
     state = state if is_sheared(state) else replace(state, by_increments=0.0)
-    # Shear that depends on the angle is computed at few rings.
-    by_rings = (state.by_rings or 0.0) if is_sheared(state) and "angles" in state.axes else 0.0
     near = NEAR * _traction_cell_width(state)
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
         levels.append(Level(e.depth, int(points.material[np.argmax(here)])))
+    moves = [state.ring_fineness is not None and not at_depths and e.depth < near for e in found]
     x, y = np.array([(e.x, e.y) for e in found]).T
     (finer,) = response.compared()
     try:
-        again = more = finer.stress_at(x, y, levels).measures
+        same = more = finer.stress_at(x, y, levels).measures
+        again = finer.values_near(found, levels, moves)
         if state.shear_error:
             more = finer.with_more_shear(state.shear_error).stress_at(x, y, levels).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
+    others = _below_fewer_rings(response, found, levels, moves)
+    if others is None:
+        return (
+            unknown_error("no solve with fewer rings determines the edge of the contact"),
+        ) * len(found)
     errors = []
     for k, e in enumerate(found):
-        size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += by_rings * abs(e.value) + _between_levels(points, measures[e.measure], e)
-        by_shear = abs(more[e.measure][k] - again[e.measure][k])
+        size = OF_FINER * abs(again[k] - e.value) + _between_levels(points, measures[e.measure], e)
+        order = EDGE if moves[k] else SMOOTH
+        spreads = [
+            (e.value - values[k]) ** 2 / (ratio ** (2 * order) + 1) for ratio, values in others
+        ]
+        size += SPREADS * sqrt(np.mean(spreads)) if spreads else 0.0
+        by_shear = abs(more[e.measure][k] - same[e.measure][k])
         doubts = (
             (e.at_window_edge, AT_WINDOW_EDGE),
             (_has_small_stick(state, e, near), SMALL_STICK),
@@ -465,3 +483,42 @@ def _stress_errors_on_disc(
         sizes = {response.part: size, "increments": by_shear}
         errors.append(_stated(state, e.value, sizes, reason))
     return tuple(errors)
+
+
+def _below_fewer_rings(
+    response: OnDisc, found: Sequence[Extreme], levels: Sequence["Level"], moves: Sequence[bool]
+) -> list[tuple[float, list[float]]] | None:
+    """Compute largest stresses below the tractions of solves with half and two thirds of the rings.
+
+    Returns the ratio of the rings with the stresses for each solve, and none if the tractions do
+    not depend on the number of rings. The result is None if no solve determines the edge of the
+    contact.
+
+    response  body below the tractions of the radial solver
+    found     largest stress of each region and measure
+    levels    depth and layer of each of them
+    moves     true for those whose place depends on the tractions
+    """
+    state = response.state
+    if state.scene is None or state.ring_fineness is None or not is_sheared(state):
+        return []
+    # The plan of the whole history: a later load may need more angles.
+    chosen = radial.plan(state.scene)
+    history = state.scene.model_copy(update={"loading": state.scene.loading[: state.step]})
+    tolerance = RadialDiscretisation(tolerance=state.ring_fineness.tolerance)
+    solver = RingSolver(history, tolerance, chosen)
+    if not solver.depends_on_rings:
+        return []
+    run = replace(state.ring_fineness, increments=state.ring_fineness.increments[: state.step])
+    others = []
+    for _, share, _ in solver.shares:
+        with suppress(SolverError):
+            coarse = state_of_result(solver.solve(replace(run, space=share * run.space)), None)
+            below = replace(
+                response,
+                state=replace(
+                    coarse, strain=state.strain, body=state.body, indenter=state.indenter
+                ),
+            )
+            others.append((1 / share, below.values_near(found, levels, moves)))
+    return others or None

@@ -48,6 +48,7 @@ from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
+from radial.discretised import RingSolver
 from semi_analytical import solve
 from slipstick import stated_errors
 from verification.closed_forms.huber_stress import huber_stress, trailing_edge_tension
@@ -244,14 +245,20 @@ def test_a_small_stick_zone_leaves_the_stress_at_its_centre_open(
 
 
 def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
-    push_ = LoadStep(tangential_force=(50.0, 0.0), increments=1)
-    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1, push_)
-    state = state_of_result(package.solve(posed, "radial"), None)
-    field = body_response(state).stress([0.3 * A])
-    found = extremes(field)[:1]
-    (exact,) = stress_errors(replace(state, by_rings=0.0), field, found)
-    (rough,) = stress_errors(replace(state, by_rings=0.01), field, found)
-    assert size(rough) - size(exact) == pytest.approx(0.01 * found[0].value)
+    push_ = LoadStep(tangential_force=(120.0, 0.0), increments=2)
+    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.2, push_)
+    solver = RingSolver(posed, RadialDiscretisation())
+    values = {}
+    for rings in (0.8, 1.6):
+        result = solver.solve(replace(solver.run_fineness(), space=rings))
+        state = state_of_result(result, None)
+        field = body_response(state).stress()
+        values[rings] = extremes(field)
+        if rings == 0.8:
+            state = replace(state, by_increments=0.0, shear_error=0.0)
+            errors = stress_errors(state, field, extremes(field))
+    for rough, fine, error in zip(values[0.8], values[1.6], errors, strict=True):
+        assert abs(rough.value - fine.value) <= size(error) <= 0.1 * fine.value
 
 
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])

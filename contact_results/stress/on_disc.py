@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import hypot
 from typing import TYPE_CHECKING, ClassVar
 
@@ -41,7 +42,7 @@ class OnDisc(BodyResponse):
 
     part: ClassVar[Part] = "quadrature"
 
-    @property
+    @cached_property
     def radial_body(self) -> RadialBody:
         """The body with the functions that compute its stress.
 
@@ -158,6 +159,32 @@ class OnDisc(BodyResponse):
             else:
                 found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
         return StressPoints.concatenate(found).rotate_to_scene(body.direction)
+
+    @one_thread()
+    def values_near(
+        self, found: Sequence[Extreme], levels: Sequence[Level], moves: Sequence[bool]
+    ) -> list[float]:
+        """Compute the values of largest stresses that were found below other tractions.
+
+        found   largest stresses, with their places and measures
+        levels  depth and layer of each of them
+        moves   True for those whose place depends on the tractions: the largest value next to it is
+                searched
+        """
+        x, y = np.array([(each.x, each.y) for each in found]).T
+        measures = self.stress_at(x, y, levels).measures
+        values = [float(measures[each.measure][k]) for k, each in enumerate(found)]
+        body = self.radial_body
+        searched: dict[tuple[str, float, float, float], float] = {}
+        for each, free in zip(found, moves, strict=True):
+            if free and each.region in body.parts.named:
+                near = body.largest(each).measures[each.measure]
+                searched[each.measure, each.x, each.y, each.depth] = float(np.max(near))
+        # The largest stress of the whole body is that of one of its regions.
+        for k, each in enumerate(found):
+            place = each.measure, each.x, each.y, each.depth
+            values[k] = searched.get(place, values[k])
+        return values
 
     def compared(self) -> Sequence[OnDisc]:
         return [replace(self, fineness=2 * self.fineness)]

@@ -25,6 +25,9 @@ from radial.stress.loaded_circle import LoadedCircle
 RADII = 241
 ANGLES = 360
 FEWEST = 4  # least number of rings that determine the edge
+# Smallest radius of the fitted points over that of the outermost loaded ring, if fewer rings lie
+# farther out.
+NEAREST = 0.5
 HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
 PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
@@ -55,7 +58,7 @@ class EdgeFit(NamedTuple):
 
 USUAL = EdgeFit()
 # Second fit of equal quality. The difference of both is an error estimate.
-ANOTHER = EdgeFit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
+ANOTHER = EdgeFit(begins=0.6, powers=3, fitted_from=0.87)
 
 
 def axisymmetric_circle(
@@ -99,8 +102,13 @@ def fit_tangential_circle(
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
     weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
     r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
-    fitted = (p > fit.over * np.max(p)) & (r > fit.begins)
-    _refuse_few(int(np.min(np.count_nonzero(fitted, axis=0))))
+    loaded = p > fit.over * np.max(p)
+    for begins in (fit.begins, NEAREST):
+        fitted = loaded & (r > begins)
+        rings = int(np.min(np.count_nonzero(fitted, axis=0)))
+        if rings >= FEWEST:
+            break
+    _refuse_few(rings)
     squared = _least_squares(1 - r * r, theta, p * p, np.where(fitted, weights, 0), fit.powers + 1)
     centre, radius = _fit_edge_circle(squared, angles)
     cos, sin = np.cos(theta), np.sin(theta)
