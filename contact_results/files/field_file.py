@@ -14,7 +14,6 @@ import numpy as np
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
 from contact_results.result_report import ResultReport
-from contact_results.solvers import SolverName
 from contact_results.surface import Rings
 from contact_scene.normal_form import with_bodies_of
 from contact_scene.quantities.field_metadata import (
@@ -89,8 +88,8 @@ def write_fields(
         if hasattr(result, "discretisation"):
             fineness = result.discretisation.model_dump_json()
             _write_dataset(file, "discretisation", fineness, Reported("", "discretisation (JSON)"))
-        if result.solver == SolverName.RADIAL:
-            file.attrs["ring_factor"] = result.plan.fineness
+        if hasattr(result, "ring_fineness"):
+            file.attrs["ring_factor"] = result.ring_fineness.space
         for name, values in surface.axes.items():
             _write_dataset(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
