@@ -1,6 +1,7 @@
 """Tests of the errors of stresses: they cover the true errors of largest stresses and of points."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,7 +30,7 @@ from contact_errors.stress_errors import (
     stress_errors,
 )
 from contact_results.stress.below_contact import body_response
-from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
@@ -244,21 +245,20 @@ def test_a_small_stick_zone_leaves_the_stress_at_its_centre_open(
     assert (error.reason == SMALL_STICK) != resolved
 
 
-def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
+def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path: Path) -> None:
     push_ = LoadStep(tangential_force=(120.0, 0.0), increments=2)
     posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.2, push_)
     solver = RingSolver(posed, RadialDiscretisation())
-    values = {}
-    for rings in (0.8, 1.6):
-        result = solver.solve(replace(solver.run_fineness(), space=rings))
-        state = state_of_result(result, None)
-        field = body_response(state).stress()
-        values[rings] = extremes(field)
-        if rings == 0.8:
-            state = replace(state, by_increments=0.0, shear_error=0.0)
-            errors = stress_errors(state, field, extremes(field))
-    for rough, fine, error in zip(values[0.8], values[1.6], errors, strict=True):
-        assert abs(rough.value - fine.value) <= size(error) <= 0.1 * fine.value
+    run, fine = (solver.solve(replace(solver.run_fineness(), space=rings)) for rings in (0.8, 1.6))
+    package.save(run, tmp_path / "run", figures="none")
+    stored = state_of_run(tmp_path / "run", None)
+    assert stored.ring_fineness == state_of_result(run, None).ring_fineness
+    state = replace(stored, by_increments=0.0, shear_error=0.0)
+    field = body_response(state).stress()
+    found = extremes(field)
+    known = extremes(body_response(state_of_result(fine, None)).stress())
+    for rough, exact, error in zip(found, known, stress_errors(state, field, found), strict=True):
+        assert abs(rough.value - exact.value) <= size(error) <= 0.1 * exact.value
 
 
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
