@@ -37,7 +37,7 @@ from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
-from radial.stress.circle_fit import fit_tangential_circle
+from radial.stress.circle_fit import axisymmetric_circle, fit_tangential_circle
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
 from radial.stress.subsurface_circle import SubsurfaceCircle
@@ -131,6 +131,15 @@ def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
     x, y = np.array([0.5, -0.5, 0.3, -0.6]), np.array([0.1, -0.2, 0.6, 0.4])
     found = circle.interpolate_tractions((x - circle.centre) / circle.radius, y / circle.radius)
     assert_allclose(found, tractions(x, y), rtol=2e-3)
+
+
+@pytest.mark.parametrize("scatters", [False, True])
+def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters: bool) -> None:
+    radii = np.append(np.linspace(0.0, 0.98, 25), [0.992, 0.996, 0.9999, 1.01, 1.2])
+    p = np.sqrt(np.maximum(1 - radii**2, 0.0))
+    p[-5:-2] *= np.array([0.8, 1.3, 5.0]) if scatters else 1.0
+    circle = axisymmetric_circle(radii, 1.0, 0.1 * p, 0.2 * p, p, on_points=scatters)
+    assert_allclose(circle.smooth[..., 0], np.ones((3, 241)) * [[0.1], [0.2], [1.0]], rtol=1e-9)
 
 
 @pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])

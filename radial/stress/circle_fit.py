@@ -28,6 +28,9 @@ FEWEST = 4  # least number of rings that determine the edge
 # Smallest radius of the fitted points over that of the outermost loaded ring, if fewer rings lie
 # farther out.
 NEAREST = 0.5
+# Distance from the centre, over the contact radius, up to which rings of an axisymmetric contact at
+# points are used. Beyond it, the pressure over its root scatters by up to a half.
+OUTERMOST = 0.99
 HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
 PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
@@ -62,7 +65,7 @@ ANOTHER = EdgeFit(begins=0.6, powers=3, fitted_from=0.87)
 
 
 def axisymmetric_circle(
-    radii: Array, radius: float, outward: Array, around: Array, p: Array
+    radii: Array, radius: float, outward: Array, around: Array, p: Array, *, on_points: bool
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
 
@@ -70,14 +73,18 @@ def axisymmetric_circle(
     radius              contact radius [length]
     outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the rings (n,)
                         [force/length²]
+    on_points           True if the tractions are unknowns of a contact at points, which scatter at
+                        the edge, False if they are those of a known contact edge
     raises              UnsupportedScene if too few rings resolve the contact
     """
-    within = radii < (1 - 1e-9) * radius
+    within = radii < (OUTERMOST if on_points else 1 - 1e-9) * radius
     eta = radii[within] / radius
     _refuse_few(len(eta))
     root = np.sqrt((1 - eta) * (1 + eta))
     places = np.linspace(0.0, 1.0, RADII)
-    smooth = CubicSpline(eta, p[within] / root)(places)
+    spline = CubicSpline(eta, p[within] / root)
+    beyond = np.maximum(places - eta[-1], 0.0)
+    smooth = spline(places - beyond) + spline(eta[-1], 1) * beyond
     shear_ratios = [
         np.interp(places, eta, q[within] / p[within]) * smooth for q in (outward, around)
     ]
