@@ -468,23 +468,36 @@ def _stress_errors_on_disc(
     others = _below_fewer_rings(response, found, levels, moves)
     if others is None:
         return (unknown_error("no solve with fewer rings has an edge"),) * len(found)
-    errors = []
+    sizes = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[k] - e.value) + _between_levels(points, measures[e.measure], e)
         order = EDGE if moves[k] else SMOOTH
         spreads = [
             (e.value - values[k]) ** 2 / (ratio ** (2 * order) + 1) for ratio, values in others
         ]
-        size += SPREADS * sqrt(np.mean(spreads)) if spreads else 0.0
+        sizes.append(size + (SPREADS * sqrt(np.mean(spreads)) if spreads else 0.0))
+    errors = []
+    for k, e in enumerate(found):
+        # The largest stress of a region may be another one of its maxima.
+        size = max(
+            other.value + error - e.value
+            for other, error in zip(found, sizes, strict=True)
+            if other is e or (other.measure == e.measure and _contains(e.region, other.region))
+        )
         by_shear = abs(more[e.measure][k] - same[e.measure][k])
         doubts = (
             (e.at_window_edge, AT_WINDOW_EDGE),
             (_has_small_stick(state, e, near), SMALL_STICK),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        sizes = {response.part: size, "increments": by_shear}
-        errors.append(_stated(state, e.value, sizes, reason))
+        parts: dict[Part, float] = {response.part: size, "increments": by_shear}
+        errors.append(_stated(state, e.value, parts, reason))
     return tuple(errors)
+
+
+def _contains(region: str, other: str) -> bool:
+    """Return True if a region of a body contains another one that may have its largest stress."""
+    return region == AT_SURFACE[0] or (region in AT_SURFACE and other == SURFACE)
 
 
 def _below_fewer_rings(

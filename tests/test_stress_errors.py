@@ -261,6 +261,27 @@ def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path: 
         assert abs(rough.value - exact.value) <= size(error) <= 0.1 * exact.value
 
 
+def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any) -> None:
+    push_ = LoadStep(tangential_force=(50.0, 0.0), increments=1)
+    posed = indented(
+        0.018, 1e3, Layer(thickness=A, material=steel(0.3, 150e9)), steel(), 0.1, push_
+    )
+    state = state_of_result(package.solve(posed, "radial"), None)
+    state = replace(state, by_increments=0.0, shear_error=0.0)
+    field = body_response(state).stress([0.0, 0.5 * A])
+    body, surface = (
+        next(one for one in extremes(field) if (one.region, one.measure) == (region, "von_mises"))
+        for region in ("body", "surface")
+    )
+    monkeypatch.setattr(
+        "contact_errors.stress_errors._below_fewer_rings",
+        lambda *_: [(2.0, [body.value, 0.5 * surface.value])],
+    )
+    inside, above = stress_errors(state, field, [body, surface])
+    assert surface.value < body.value
+    assert body.value + size(inside) == pytest.approx(surface.value + size(above))
+
+
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
 def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
     """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
