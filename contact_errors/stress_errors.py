@@ -60,6 +60,7 @@ from contact_results.stress.radial_body import is_sheared
 from contact_results.stress.stress_maxima import (
     SURFACE,
     Extreme,
+    excess_between_depths,
     extremes,
 )
 from contact_scene import RadialDiscretisation, Scene
@@ -105,6 +106,8 @@ THICKNESS = 2.0
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
 OF_ANOTHER_FIT = 1 / (COARSE ** (BELIEVED * ROOT) - 1)
+# Error over the excess of a parabola through three depths, which omits terms of the third order.
+OF_PARABOLA = 2.0
 # Relative error of the stress at a fitted edge by the evaluation of its tractions: at most 1.2e-3
 # in Hertz contacts with partial and gross slip on 24 to 96 cells per side.
 EDGE_PRECISION = 1e-3
@@ -251,7 +254,8 @@ def stress_errors(
             spread = sqrt(np.mean([(value - other) ** 2 for other in others]))
             error = _error_per_spread(order) * spread
             if not shallow:
-                error += _between_levels(field.points, measures[extreme.measure], extreme)
+                excess = excess_between_depths(field.points, measures[extreme.measure], extreme)
+                error += OF_PARABOLA * excess
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
                 error = max(error, OF_ANOTHER_FIT * field.edge.apart) + EDGE_PRECISION * abs(value)
             if at_edge and tension and not fitted:
@@ -395,27 +399,6 @@ def _largest_by_place(
     return found
 
 
-def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Estimate how much the largest stress exceeds the value found at discrete depths.
-
-    A parabola is drawn through the largest values on three depths (levels). The error is twice the
-    excess of its maximum over the largest stress found. The factor 2 accounts for the third-order
-    terms that a parabola omits. The error is 0 on an interface and at the end of a material.
-    """
-    here = (points.depth == extreme.depth) & (values == extreme.value)
-    inside = points.material == points.material.flat[int(np.argmax(here))]
-    levels = np.unique(points.depth[inside])
-    round_off = PRECISION * levels[-1]  # of equal depths in two refinements of a maximum
-    above = levels[levels < extreme.depth - round_off]
-    below = levels[levels > extreme.depth + round_off]
-    if extreme.region.startswith("interface") or not (above.size and below.size):
-        return 0.0
-    three = np.array([above[-1], extreme.depth, below[0]])
-    largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
-    bend, slope, _ = np.polyfit(three - extreme.depth, largest, 2)
-    return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
-
-
 def _error_per_spread(order: float) -> float:
     """Return the larger of two errors over the difference from coarse tractions, r = 2, order p:
     3/√(r^(2p) + 1) if errors scatter, 1/(r^p - 1) if they decrease as a power."""
@@ -470,7 +453,8 @@ def _stress_errors_on_disc(
         return (unknown_error("no solve with fewer rings has an edge"),) * len(found)
     sizes = []
     for k, e in enumerate(found):
-        size = OF_FINER * abs(again[k] - e.value) + _between_levels(points, measures[e.measure], e)
+        excess = excess_between_depths(points, measures[e.measure], e)
+        size = OF_FINER * abs(again[k] - e.value) + OF_PARABOLA * excess
         order = EDGE if moves[k] else SMOOTH
         spreads = [
             (e.value - values[k]) ** 2 / (ratio ** (2 * order) + 1) for ratio, values in others

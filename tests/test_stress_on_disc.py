@@ -309,12 +309,22 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     assert float(error.error) < 0.05 * largest[0].value
 
 
-@pytest.mark.parametrize("thickness", [0.4, 8.0])
-def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) -> None:
-    """Also where the tension of an interface begins beyond the first window, and in a base that
-    begins below the usual depths."""
-    radius = 0.86e-3  # of the contact without layer
-    scene = scene_of(on_steel(thickness * radius, 2e10), LARGE, 1e3)
+A_BARE = 0.86e-3  # contact radius without layer [m]
+TWO_LAYERS = on_steel(0.9 * A_BARE, 2.4e11).layers + on_steel(0.16 * A_BARE, 1.2e12).layers
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        on_steel(0.4 * A_BARE, 2e10),
+        on_steel(8.0 * A_BARE, 2e10),
+        Body(material=STEEL, layers=TWO_LAYERS),
+    ],
+)
+def test_cells_have_the_largest_stresses_of_the_radial_solver(body: Body) -> None:
+    """Also where the tension of an interface begins beyond the first window, in a base that begins
+    below the usual depths, and between the points of sections and depths."""
+    scene = scene_of(body, LARGE, 1e3)
     named = []
     for solver, sizes in (
         ("semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
@@ -325,7 +335,9 @@ def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) 
         assert field.shown[1] <= 3.01 * state.contact_radius  # deeper points are not drawn
         named.append({(one.region, one.measure): one for one in extremes(field)})
     cells, rings = named
-    assert cells.keys() == rings.keys()
+    highest = rings["body", "von_mises"].value
+    assert all(rings[key].value < 1e-4 * highest for key in rings.keys() - cells.keys())
     for key, one in cells.items():
         assert not one.at_window_edge
-        assert_allclose(one.value, rings[key].value, rtol=0.03)
+        allowed = 0.01 if one.depth else 0.03
+        assert_allclose(one.value, rings[key].value, rtol=allowed, err_msg=str(key))

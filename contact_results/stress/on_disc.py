@@ -84,10 +84,9 @@ class OnDisc(BodyResponse):
         if depths is not None:
             return field
         centre_x, centre_y = (body.centre * component for component in body.direction)
+        inner = (1 - 1e-9) * body.reach * radius  # at its end, the largest may lie farther out
         nearer = [
-            (
-                body if hypot(one.x - centre_x, one.y - centre_y) <= body.reach * radius else wide
-            ).largest(one)
+            (body if hypot(one.x - centre_x, one.y - centre_y) < inner else wide).largest(one)
             for one in extremes(field)
             if one.region in body.parts.named and one.measure in self.measures
         ]
@@ -176,7 +175,9 @@ class OnDisc(BodyResponse):
         values = [float(measures[each.measure][k]) for k, each in enumerate(found)]
         body = self.radial_body
         searched: dict[tuple[str, float, float, float], float] = {}
-        for each, free in zip(found, moves, strict=True):
+        centre_x, centre_y = (body.centre * component for component in body.direction)
+        inside = np.hypot(x - centre_x, y - centre_y) < body.reach * body.parts.radius
+        for each, free in zip(found, inside & moves, strict=True):
             if free and each.region in body.parts.named:
                 near = body.largest(each).measures[each.measure]
                 searched[each.measure, each.x, each.y, each.depth] = float(np.max(near))

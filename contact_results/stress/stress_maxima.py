@@ -17,6 +17,8 @@ from contact_results.stress.points import (
     layer_name,
 )
 from contact_scene import Body, IsotropicMaterial
+from contact_scene.array_types import Field
+from contact_scene.discretised import PRECISION
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
 
@@ -61,6 +63,44 @@ def extremes(field: StressField) -> tuple[Extreme, ...]:
             if key not in found or extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
+
+
+def adjacent_depths(
+    points: StressPoints, values: Field, extreme: Extreme
+) -> tuple[Field, Field] | None:
+    """Return the depth of a largest stress and the next depths above and below it.
+
+    The result is the three depths [length], and the largest stress at each; None on an interface
+    and at the end of a material.
+
+    points   points of the stress field
+    values   stress measure at these points
+    extreme  largest value of this measure
+    """
+    here = (points.depth == extreme.depth) & (values == extreme.value)
+    inside = points.material == points.material.flat[int(np.argmax(here))]
+    levels = np.unique(points.depth[inside])
+    round_off = PRECISION * levels[-1]  # of equal depths in two refinements of a maximum
+    above = levels[levels < extreme.depth - round_off]
+    below = levels[levels > extreme.depth + round_off]
+    if extreme.region.startswith("interface") or not (above.size and below.size):
+        return None
+    three = np.array([above[-1], extreme.depth, below[0]])
+    return three, np.array([np.max(values[inside & (points.depth == z)]) for z in three])
+
+
+def excess_between_depths(points: StressPoints, values: Field, extreme: Extreme) -> float:
+    """Estimate how much the largest stress exceeds the value found at discrete depths.
+
+    The estimate is that of a parabola through the largest values at three depths. It is 0 on an
+    interface and at the end of a material. The arguments are those of `adjacent_depths`.
+    """
+    around = adjacent_depths(points, values, extreme)
+    if around is None:
+        return 0.0
+    depths, largest = around
+    bend, slope, _ = np.polyfit(depths - extreme.depth, largest, 2)
+    return float(slope**2 / (-4 * bend)) if bend < 0 else 0.0
 
 
 def _largest_in_regions(field: StressField, points: StressPoints) -> Iterator[Extreme]:
