@@ -134,6 +134,14 @@ def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
     assert_allclose(found, tractions(x, y), rtol=2e-3)
 
 
+def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring() -> None:
+    radii, angles = np.linspace(0.0, 1.2, 61), np.linspace(0, np.pi, 10)
+    s = np.maximum(1 - radii**2, 0.0)
+    p = np.sqrt(np.where(s > 0, 0.02 + s**2, 0.0))[:, None] * np.ones_like(angles)
+    circle = fit_tangential_circle(radii, angles, 0 * p, 0 * p, p)
+    assert_allclose([circle.radius, circle.centre], [1.0, 0.0], atol=0.1)
+
+
 @pytest.mark.parametrize("scatters", [False, True])
 def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters: bool) -> None:
     radii = np.append(np.linspace(0.0, 0.98, 25), [0.992, 0.996, 0.9999, 1.01, 1.2])

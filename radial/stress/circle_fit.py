@@ -33,6 +33,7 @@ NEAREST = 0.5
 OUTERMOST = 0.99
 HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
+ZERO = 1e-9  # square of the pressure at a zero, over the largest one; more has not converged
 PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
 
 
@@ -116,8 +117,7 @@ def fit_tangential_circle(
         if rings >= FEWEST:
             break
     _refuse_few(rings)
-    squared = _least_squares(1 - r * r, theta, p * p, np.where(fitted, weights, 0), fit.powers + 1)
-    centre, radius = _fit_edge_circle(squared, angles)
+    centre, radius = _fit_edge_circle(r, theta, p, np.where(fitted, weights, 0), fit.powers + 1)
     cos, sin = np.cos(theta), np.sin(theta)
     x, y = r * cos, r * sin
     rho, angle = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
@@ -194,32 +194,39 @@ def _least_squares(
 
 
 def _fit_edge_circle(
-    squared: Callable[[Array, Array], Array], angles: Array
+    r: Array, theta: Array, p: Array, weights: Array, powers: int
 ) -> tuple[float, float]:
-    """Find centre and radius of the circle on which a fit of the squared pressure is zero.
+    """Fit the squared pressure, and find centre and radius of the circle on which it is zero.
 
     The circle is the contact edge. Newton's method finds a zero of the fit at each angle, and least
-    squares give the circle. The centre lies on the x axis. Both results are over the radius of the
-    outermost loaded ring.
+    squares give the circle. If a fit has no zero, because the pressure waves, the highest power is
+    reduced. The centre lies on the x axis. Both results are over the radius of the outermost loaded
+    ring.
 
-    squared  fit of p² as a function of 1 - r² and the angle
-    angles   angles at which the zeros are found [radian]
-    raises   UnsupportedScene if the fit has no zero near the outermost loaded ring
+    r, theta  coordinates of the nodes, r over the radius of the outermost loaded ring
+    p         pressure at the nodes [force/length²]
+    weights   weights of the nodes in the fit
+    powers    highest power of 1 - r² in the fit
+    raises    UnsupportedScene if no fit has a zero near the outermost loaded ring
     """
-    s, step = np.zeros_like(angles), 1e-6
-    for _ in range(STEPS):
-        slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
-        s -= squared(s, angles) / slope
-    if not np.all(np.abs(s) < 1):
-        raise UnsupportedScene(
-            "the pressure of the outer rings does not determine the edge of the contact, which the "
-            f"stress below the surface requires. Use more increments, or {ELSEWHERE}"
-        )
-    # r² = 2 x c + R² - c²
-    x = np.sqrt(1 - s) * np.cos(angles)
-    law = np.stack([2 * x, np.ones_like(x)], axis=1)
-    centre, rest = np.linalg.lstsq(law, 1 - s)[0]
-    return float(centre), float(np.sqrt(rest + centre**2))
+    angles, step = theta[0], 1e-6
+    for highest in range(powers, 0, -1):
+        squared = _least_squares(1 - r * r, theta, p * p, weights, highest)
+        s = np.zeros_like(angles)
+        for _ in range(STEPS):
+            slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
+            s -= squared(s, angles) / slope
+        is_zero = np.abs(squared(s, angles)) < ZERO * np.max(p) ** 2
+        if np.all(is_zero & (np.abs(s) < 1)):
+            # r² = 2 x c + R² - c²
+            x = np.sqrt(1 - s) * np.cos(angles)
+            law = np.stack([2 * x, np.ones_like(x)], axis=1)
+            centre, rest = np.linalg.lstsq(law, 1 - s)[0]
+            return float(centre), float(np.sqrt(rest + centre**2))
+    raise UnsupportedScene(
+        "the pressure of the outer rings does not determine the edge of the contact, which the "
+        f"stress below the surface requires. Use more increments, or {ELSEWHERE}"
+    )
 
 
 def _extend_outwards(ratio: Array, known: Mask) -> Array:
