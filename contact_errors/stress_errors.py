@@ -28,7 +28,6 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any
@@ -254,7 +253,7 @@ def stress_errors(
             spread = sqrt(np.mean([(value - other) ** 2 for other in others]))
             error = _error_per_spread(order) * spread
             if not shallow:
-                excess = excess_between_depths(field.points, measures[extreme.measure], extreme)
+                excess, _ = excess_between_depths(field.points, measures[extreme.measure], extreme)
                 error += OF_PARABOLA * excess
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
                 error = max(error, OF_ANOTHER_FIT * field.edge.apart) + EDGE_PRECISION * abs(value)
@@ -449,11 +448,11 @@ def _stress_errors_on_disc(
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
     others = _below_fewer_rings(response, found, levels, moves)
-    if others is None:
-        return (unknown_error("no solve with fewer rings has an edge"),) * len(found)
+    if isinstance(others, str):
+        return (unknown_error(others),) * len(found)
     sizes = []
     for k, e in enumerate(found):
-        excess = excess_between_depths(points, measures[e.measure], e)
+        excess, _ = excess_between_depths(points, measures[e.measure], e)
         size = OF_FINER * abs(again[k] - e.value) + OF_PARABOLA * excess
         order = EDGE if moves[k] else SMOOTH
         spreads = [
@@ -466,7 +465,7 @@ def _stress_errors_on_disc(
         size = max(
             other.value + error - e.value
             for other, error in zip(found, sizes, strict=True)
-            if other is e or (other.measure == e.measure and _contains(e.region, other.region))
+            if other.measure == e.measure and response.contains(e.region, other.region)
         )
         by_shear = abs(more[e.measure][k] - same[e.measure][k])
         doubts = (
@@ -479,19 +478,15 @@ def _stress_errors_on_disc(
     return tuple(errors)
 
 
-def _contains(region: str, other: str) -> bool:
-    """Return True if a region of a body contains another one that may have its largest stress."""
-    return region == AT_SURFACE[0] or (region in AT_SURFACE and other == SURFACE)
-
-
 def _below_fewer_rings(
     response: OnDisc, found: Sequence[Extreme], levels: Sequence["Level"], moves: Sequence[bool]
-) -> list[tuple[float, list[float]]] | None:
+) -> list[tuple[float, list[float]]] | str:
     """Compute largest stresses below the tractions of solves with half and two thirds of the rings.
 
+    The whole history is solved: rings are laid over its largest contact.
+
     Returns the ratio of the rings with the stresses for each solve, and none if the tractions do
-    not depend on the number of rings. The result is None if no solve determines the edge of the
-    contact.
+    not depend on the number of rings. The result is a reason if the stresses are unknown.
 
     response  body below the tractions of the radial solver
     found     largest stress of each region and measure
@@ -499,25 +494,24 @@ def _below_fewer_rings(
     moves     true for those whose place depends on the tractions
     """
     state = response.state
-    if state.scene is None or state.ring_fineness is None or not is_sheared(state):
+    if state.scene is None or not is_sheared(state):
         return []
-    # The plan of the whole history: a later load may need more angles.
-    chosen = radial.plan(state.scene)
-    history = state.scene.model_copy(update={"loading": state.scene.loading[: state.step]})
-    tolerance = RadialDiscretisation(tolerance=state.ring_fineness.tolerance)
-    solver = RingSolver(history, tolerance, chosen)
+    scene = state.scene.model_copy(update={"contact_stiffness": False})
+    run = state.ring_fineness
+    solver = RingSolver(scene, RadialDiscretisation(tolerance=run.tolerance if run else 1.0))
     if not solver.depends_on_rings:
         return []
-    run = replace(state.ring_fineness, increments=state.ring_fineness.increments[: state.step])
+    if run is None:
+        return "the run does not state its number of rings: run the scene again"
     others = []
+    reason = ""
     for _, share, _ in solver.shares:
-        with suppress(SolverError):
-            coarse = state_of_result(solver.solve(replace(run, space=share * run.space)), None)
-            below = replace(
-                response,
-                state=replace(
-                    coarse, strain=state.strain, body=state.body, indenter=state.indenter
-                ),
-            )
+        try:
+            result = solver.solve(replace(run, space=share * run.space))
+            coarse = state_of_result(result, state.step)
+            bodies = {name: getattr(state, name) for name in ("strain", "body", "indenter")}
+            below = replace(response, state=replace(coarse, **bodies))
             others.append((1 / share, below.values_near(found, levels, moves)))
-    return others or None
+        except (SolverError, NoSuchState) as error:
+            reason = f"with fewer rings, {error}"
+    return others or reason

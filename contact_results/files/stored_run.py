@@ -29,7 +29,6 @@ from contact_results.files.stored_values import (
     read_text,
     row_of,
 )
-from contact_results.solvers import SolverName
 from contact_results.surface import SURFACE_FIELDS, Surface, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.discretised import Fineness
@@ -123,7 +122,8 @@ class StoredRun:
     last_cycle      fields of the last closed load cycle; empty if there is none
     direction       unit vector of the tangential load, at angle 0
     discretisation  settings of the finite elements; None for other solvers
-    ring_factor     factor of the default number of rings of the radial solver; None for others
+    ring_factor     factor of the default number of rings of the radial solver; None for others, and
+                    if the file does not state it
     """
 
     summary: RunSummary
@@ -148,11 +148,11 @@ class StoredRun:
 
     @property
     def ring_fineness(self) -> Fineness | None:
-        """Rings, increments and tolerance of the radial solver; None for other solvers."""
+        """Rings, increments and tolerance of the radial solver; None without `ring_factor`."""
         if self.ring_factor is None:
             return None
         counts = np.unique(self.increments["step"].array, return_counts=True)[1]
-        return Fineness(self.ring_factor, tuple(counts.tolist()), self.summary.tolerance)
+        return Fineness(float(self.ring_factor), tuple(counts.tolist()), self.summary.tolerance)
 
     def end_of_step(self, number: int) -> SimpleNamespace:
         """Read scalars and fields at the end of a load step, see `increment`.
@@ -224,8 +224,7 @@ def load(directory: str | PathLike[str]) -> StoredRun:
             if "increments" not in file:
                 raise ValueError("it has no increments")
             x, y = file.attrs.get("direction", (1.0, 0.0))
-            on_rings = record.solver == SolverName.RADIAL
-            ring_factor = float(file.attrs["ring_factor"]) if on_rings else None
+            ring_factor = file.attrs.get("ring_factor")
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None

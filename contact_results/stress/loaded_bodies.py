@@ -79,7 +79,8 @@ class LoadedBodies:
     peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
     scene           scene of the result; None if unknown
-    ring_fineness   rings and increments of the radial solver; None for other solvers
+    ring_fineness   rings and increments of the radial solver; None for other solvers, and if a
+                    stored run does not state them
     """
 
     title: str

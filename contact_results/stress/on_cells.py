@@ -25,7 +25,6 @@ from contact_results.stress.points import (
     StressPoints,
 )
 from contact_results.stress.stress_maxima import (
-    adjacent_depths,
     excess_between_depths,
     extremes,
 )
@@ -56,11 +55,12 @@ GRADING = 0.02
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
 # Excess of a parabola between depths, relative to a largest stress, up to which no further depth is
-# computed, and largest number of times that depths are added.
+# computed: errors of this size remain at fitted edges, too.
 EXCESS = 1e-3
-MORE_DEPTHS = 8
-# Ratio of a further depth to the deepest one, if the largest stress lies there.
+# Ratio of a further depth to the deepest one, if the largest stress lies there, and largest number
+# of times that depths are added: they reach to 77 contact radii, where nothing is largest.
 DEEPER = 1.5
+MORE_DEPTHS = 8
 # Largest number of cells along a side for the overview, whose stress then takes less than a second,
 # and interval of the default depths that it uses.
 MAX_DRAWN = 64
@@ -368,11 +368,10 @@ class OnCells(BodyResponse):
             for one in extremes(field):
                 values = measures[one.measure]
                 layer = int(points.material[np.argmax(values == one.value)])
-                around = adjacent_depths(points, values, one)
+                excess, three = excess_between_depths(points, values, one)
                 depths: list[float] = []
-                if excess_between_depths(points, values, one) > EXCESS * one.value:
-                    assert around is not None
-                    depths = [(a + b) / 2 for a, b in pairwise(around[0])]
+                if excess > EXCESS * one.value:
+                    depths = [(a + b) / 2 for a, b in pairwise(three)]
                 elif layer == len(self.body.layers) and one.depth == np.max(points.depth):
                     depths = [DEEPER * one.depth]
                 levels |= {

@@ -159,6 +159,17 @@ class OnDisc(BodyResponse):
                 found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
         return StressPoints.concatenate(found).rotate_to_scene(body.direction)
 
+    def contains(self, region: str, other: str) -> bool:
+        """Return True if a region of the body contains another one, or is the same."""
+        named = self.radial_body.parts.named
+        if region not in named:  # the whole body
+            return True
+        (layer, top, bottom), (within, highest, lowest) = (
+            named[region],
+            named.get(other, (-1, 0, 0)),
+        )
+        return layer == within and top <= highest and lowest <= bottom
+
     @one_thread()
     def values_near(
         self, found: Sequence[Extreme], levels: Sequence[Level], moves: Sequence[bool]
@@ -177,14 +188,17 @@ class OnDisc(BodyResponse):
         searched: dict[tuple[str, float, float, float], float] = {}
         centre_x, centre_y = (body.centre * component for component in body.direction)
         inside = np.hypot(x - centre_x, y - centre_y) < body.reach * body.parts.radius
-        for each, free in zip(found, inside & moves, strict=True):
+        for k, (each, free) in enumerate(zip(found, inside & moves, strict=True)):
             if free and each.region in body.parts.named:
-                near = body.largest(each).measures[each.measure]
-                searched[each.measure, each.x, each.y, each.depth] = float(np.max(near))
+                near = float(np.max(body.largest(each).measures[each.measure]))
+                place = each.measure, each.x, each.y, each.depth
+                searched[place] = max(near, searched.get(place, near))
+                values[k] = near
         # The largest stress of the whole body is that of one of its regions.
         for k, each in enumerate(found):
-            place = each.measure, each.x, each.y, each.depth
-            values[k] = searched.get(place, values[k])
+            if each.region not in body.parts.named:
+                place = each.measure, each.x, each.y, each.depth
+                values[k] = searched.get(place, values[k])
         return values
 
     def compared(self) -> Sequence[OnDisc]:

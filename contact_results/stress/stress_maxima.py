@@ -65,17 +65,20 @@ def extremes(field: StressField) -> tuple[Extreme, ...]:
     return tuple(found.values())
 
 
-def adjacent_depths(
+def excess_between_depths(
     points: StressPoints, values: Field, extreme: Extreme
-) -> tuple[Field, Field] | None:
-    """Return the depth of a largest stress and the next depths above and below it.
+) -> tuple[float, tuple[float, ...]]:
+    """Estimate how much the largest stress exceeds the value found at discrete depths.
 
-    The result is the three depths [length], and the largest stress at each; None on an interface
-    and at the end of a material.
+    The estimate is that of a parabola through the largest values at the depth of this stress and at
+    the next depths above and below.
 
     points   points of the stress field
     values   stress measure at these points
     extreme  largest value of this measure
+
+    Returns the excess and the three depths [length]; 0 and no depths on an interface and at the end
+    of a material.
     """
     here = (points.depth == extreme.depth) & (values == extreme.value)
     inside = points.material == points.material.flat[int(np.argmax(here))]
@@ -84,23 +87,11 @@ def adjacent_depths(
     above = levels[levels < extreme.depth - round_off]
     below = levels[levels > extreme.depth + round_off]
     if extreme.region.startswith("interface") or not (above.size and below.size):
-        return None
-    three = np.array([above[-1], extreme.depth, below[0]])
-    return three, np.array([np.max(values[inside & (points.depth == z)]) for z in three])
-
-
-def excess_between_depths(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Estimate how much the largest stress exceeds the value found at discrete depths.
-
-    The estimate is that of a parabola through the largest values at three depths. It is 0 on an
-    interface and at the end of a material. The arguments are those of `adjacent_depths`.
-    """
-    around = adjacent_depths(points, values, extreme)
-    if around is None:
-        return 0.0
-    depths, largest = around
-    bend, slope, _ = np.polyfit(depths - extreme.depth, largest, 2)
-    return float(slope**2 / (-4 * bend)) if bend < 0 else 0.0
+        return 0.0, ()
+    three = float(above[-1]), extreme.depth, float(below[0])
+    largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
+    bend, slope, _ = np.polyfit(np.array(three) - extreme.depth, largest, 2)
+    return (float(slope**2 / (-4 * bend)) if bend < 0 else 0.0), three
 
 
 def _largest_in_regions(field: StressField, points: StressPoints) -> Iterator[Extreme]:

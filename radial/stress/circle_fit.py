@@ -25,9 +25,6 @@ from radial.stress.loaded_circle import LoadedCircle
 RADII = 241
 ANGLES = 360
 FEWEST = 4  # least number of rings that determine the edge
-# Smallest radius of the fitted points over that of the outermost loaded ring, if fewer rings lie
-# farther out.
-NEAREST = 0.5
 # Distance from the centre, over the contact radius, up to which rings of an axisymmetric contact at
 # points are used. Beyond it, the pressure over its root scatters by up to a half.
 OUTERMOST = 0.99
@@ -110,13 +107,8 @@ def fit_tangential_circle(
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
     weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
     r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
-    loaded = p > fit.over * np.max(p)
-    for begins in (fit.begins, NEAREST):
-        fitted = loaded & (r > begins)
-        rings = int(np.min(np.count_nonzero(fitted, axis=0)))
-        if rings >= FEWEST:
-            break
-    _refuse_few(rings)
+    fitted = (p > fit.over * np.max(p)) & (r > fit.begins)
+    _refuse_few(int(np.min(np.count_nonzero(fitted, axis=0))))
     centre, radius = _fit_edge_circle(r, theta, p, np.where(fitted, weights, 0), fit.powers + 1)
     cos, sin = np.cos(theta), np.sin(theta)
     x, y = r * cos, r * sin
