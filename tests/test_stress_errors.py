@@ -274,7 +274,7 @@ def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any)
         for region in ("body", "layer 1", "surface")
     )
     monkeypatch.setattr(
-        "contact_errors.stress_errors._below_fewer_rings",
+        "contact_errors.stress_errors._below_other_rings",
         lambda *_: [(2.0, [body.value, layer.value, 0.5 * surface.value])],
     )
     *inside, above = stress_errors(state, field, [body, layer, surface])
