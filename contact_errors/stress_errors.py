@@ -20,6 +20,9 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 - If an edge that is not fitted may have the largest tensile stress, the error has not converged.
 - A section of finite elements ends where the displacement is that of a half-space. A wider section
   is compared, with the order 2, and 1 in plane strain.
+- Shear of the radial solver that depends on its rings is compared with that of two solves with half
+  and two thirds of the rings, with the order 2, and 1 near the surface, where the place of the
+  largest stress is searched again.
 - Other stresses than the tensile stress are compared at the edge only if their maximum was found
   near the surface.
 """
@@ -27,7 +30,7 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from math import hypot, inf, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,9 +59,10 @@ from contact_results.stress.radial_body import is_sheared
 from contact_results.stress.stress_maxima import (
     SURFACE,
     Extreme,
+    excess_between_depths,
     extremes,
 )
-from contact_scene import Scene
+from contact_scene import RadialDiscretisation, Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
 from contact_scene.discretised import PRECISION
@@ -68,6 +72,10 @@ from contact_scene.quantities.stated_error import (
     StatedErrors,
 )
 from contact_scene.solver_errors import SolverError, UnsupportedScene
+from radial.discretised import RingSolver
+
+if TYPE_CHECKING:
+    from semi_analytical.frf.depth import Level
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]
@@ -93,10 +101,14 @@ STICK = 4.0
 # half an element. Below a stiff film of 1.5 elements the tension errs by 17 %, three times its
 # stated error, and that of 2.2 elements by 6 %, within it.
 THICKNESS = 2.0
+# Factor of the rings of a solve in place of one on too few. Twice the rings take 16 times the time.
+MORE_RINGS = 1.5
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
 # Error over the difference of two fits of the edge, as if the wider one had half of the cells.
 OF_ANOTHER_FIT = 1 / (COARSE ** (BELIEVED * ROOT) - 1)
+# Error over the excess of a parabola through three depths, which omits terms of the third order.
+OF_PARABOLA = 2.0
 # Relative error of the stress at a fitted edge by the evaluation of its tractions: at most 1.2e-3
 # in Hertz contacts with partial and gross slip on 24 to 96 cells per side.
 EDGE_PRECISION = 1e-3
@@ -190,7 +202,8 @@ def stress_errors(
     """
     response = body_response(state, indenter=indenter)
     if state.pressed is not None:
-        return _stress_errors_on_disc(response, field.points, found)
+        assert isinstance(response, OnDisc)
+        return _stress_errors_on_disc(response, field.points, found, at_depths=at_depths)
     part = response.part
     errors: list[StatedError] = []
     known = None if at_depths else _reference_maxima(state, found, indenter)
@@ -242,7 +255,8 @@ def stress_errors(
             spread = sqrt(np.mean([(value - other) ** 2 for other in others]))
             error = _error_per_spread(order) * spread
             if not shallow:
-                error += _between_levels(field.points, measures[extreme.measure], extreme)
+                excess, _ = excess_between_depths(field.points, measures[extreme.measure], extreme)
+                error += OF_PARABOLA * excess
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
                 error = max(error, OF_ANOTHER_FIT * field.edge.apart) + EDGE_PRECISION * abs(value)
             if at_edge and tension and not fitted:
@@ -386,27 +400,6 @@ def _largest_by_place(
     return found
 
 
-def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Estimate how much the largest stress exceeds the value found at discrete depths.
-
-    A parabola is drawn through the largest values on three depths (levels). The error is twice the
-    excess of its maximum over the largest stress found. The factor 2 accounts for the third-order
-    terms that a parabola omits. The error is 0 on an interface and at the end of a material.
-    """
-    here = (points.depth == extreme.depth) & (values == extreme.value)
-    inside = points.material == points.material.flat[int(np.argmax(here))]
-    levels = np.unique(points.depth[inside])
-    round_off = PRECISION * levels[-1]  # of equal depths in two refinements of a maximum
-    above = levels[levels < extreme.depth - round_off]
-    below = levels[levels > extreme.depth + round_off]
-    if extreme.region.startswith("interface") or not (above.size and below.size):
-        return 0.0
-    three = np.array([above[-1], extreme.depth, below[0]])
-    largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
-    bend, slope, _ = np.polyfit(three - extreme.depth, largest, 2)
-    return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
-
-
 def _error_per_spread(order: float) -> float:
     """Return the larger of two errors over the difference from coarse tractions, r = 2, order p:
     3/√(r^(2p) + 1) if errors scatter, 1/(r^p - 1) if they decrease as a power."""
@@ -421,47 +414,110 @@ def _traction_cell_width(state: LoadedBodies) -> float:
 
 
 def _stress_errors_on_disc(
-    response: BodyResponse, points: StressPoints, found: Sequence[Extreme]
+    response: OnDisc, points: StressPoints, found: Sequence[Extreme], *, at_depths: bool
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
-    The stresses at the same points are computed again with twice the numbers of Legendre orders and
+    The stresses at the same places are computed again with twice the numbers of Legendre orders and
     quadrature points. The differences yield the errors, with the excess of a maximum between the
-    depths of the points. Tractions that depend on the angle add their error by the rings.
+    depths of the points. If the tractions depend on the number of rings, the stresses below the
+    tractions of two solves with fewer rings are compared as well. The place of a largest stress
+    near the surface moves with the edge of the contact.
 
-    response  body below the tractions of the radial solver
-    points    points of the stress field
-    found     largest stress of each region and measure among these points
+    response   body below the tractions of the radial solver
+    points     points of the stress field
+    found      largest stress of each region and measure among these points
+    at_depths  true if `found` are largest stresses at chosen depths
     """
     from semi_analytical.frf.depth import Level
 
     state = response.state
     state = state if is_sheared(state) else replace(state, by_increments=0.0)
-    # Shear that depends on the angle is computed at few rings.
-    by_rings = (state.by_rings or 0.0) if is_sheared(state) and "angles" in state.axes else 0.0
     near = NEAR * _traction_cell_width(state)
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
         levels.append(Level(e.depth, int(points.material[np.argmax(here)])))
+    on_points = state.ring_fineness is not None and is_sheared(state)
+    moves = [on_points and not at_depths and e.depth < near for e in found]
     x, y = np.array([(e.x, e.y) for e in found]).T
     (finer,) = response.compared()
     try:
-        again = more = finer.stress_at(x, y, levels).measures
+        same = more = finer.stress_at(x, y, levels).measures
+        again = finer.values_near(found, levels, moves)
         if state.shear_error:
             more = finer.with_more_shear(state.shear_error).stress_at(x, y, levels).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
+    others = _below_other_rings(response, found, levels, moves)
+    if isinstance(others, str):
+        return (unknown_error(others),) * len(found)
+    sizes = []
+    for k, e in enumerate(found):
+        excess, _ = excess_between_depths(points, measures[e.measure], e)
+        size = OF_FINER * abs(again[k] - e.value) + OF_PARABOLA * excess
+        order = EDGE if moves[k] else SMOOTH
+        spreads = [
+            (e.value - values[k]) ** 2 / (ratio ** (2 * order) + 1) for ratio, values in others
+        ]
+        sizes.append(size + (SPREADS * sqrt(np.mean(spreads)) if spreads else 0.0))
     errors = []
     for k, e in enumerate(found):
-        size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += by_rings * abs(e.value) + _between_levels(points, measures[e.measure], e)
-        by_shear = abs(more[e.measure][k] - again[e.measure][k])
+        # The largest stress of a region may be another one of its maxima.
+        size = max(
+            other.value + error - e.value
+            for other, error in zip(found, sizes, strict=True)
+            if other.measure == e.measure and response.contains(e.region, other.region)
+        )
+        by_shear = abs(more[e.measure][k] - same[e.measure][k])
         doubts = (
             (e.at_window_edge, AT_WINDOW_EDGE),
             (_has_small_stick(state, e, near), SMALL_STICK),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        sizes = {response.part: size, "increments": by_shear}
-        errors.append(_stated(state, e.value, sizes, reason))
+        parts: dict[Part, float] = {response.part: size, "increments": by_shear}
+        errors.append(_stated(state, e.value, parts, reason))
     return tuple(errors)
+
+
+def _below_other_rings(
+    response: OnDisc, found: Sequence[Extreme], levels: Sequence["Level"], moves: Sequence[bool]
+) -> list[tuple[float, list[float]]] | str:
+    """Compute largest stresses below the tractions of two solves with other numbers of rings.
+
+    These have half and two thirds of the rings, or half more of them in place of a solve whose
+    rings do not determine the edge of the contact. The whole history is solved, because rings are
+    laid over its largest contact.
+
+    Returns the ratio of the rings with the stresses for each solve, and none if the tractions do
+    not depend on the number of rings. The result is a reason if the stresses are unknown.
+
+    response  body below the tractions of the radial solver
+    found     largest stress of each region and measure
+    levels    depth and layer of each of them
+    moves     true for those whose place depends on the tractions
+    """
+    state = response.state
+    if state.scene is None or not is_sheared(state):
+        return []
+    scene = state.scene.model_copy(update={"contact_stiffness": False})
+    run = state.ring_fineness
+    solver = RingSolver(scene, RadialDiscretisation(tolerance=run.tolerance if run else 1.0))
+    if not solver.depends_on_rings:
+        return []
+    if run is None:
+        return "the run does not state its number of rings: run the scene again"
+    others = []
+    reason = ""
+    for share in (*(share for _, share, _ in solver.shares), MORE_RINGS):
+        if len(others) == len(solver.shares):
+            break
+        try:
+            result = solver.solve(replace(run, space=share * run.space))
+            coarse = state_of_result(result, state.step)
+            bodies = {name: getattr(state, name) for name in ("strain", "body", "indenter")}
+            below = replace(response, state=replace(coarse, **bodies))
+            others.append((1 / share, below.values_near(found, levels, moves)))
+        except (SolverError, NoSuchState) as error:
+            reason = f"with other numbers of rings, {error}"
+    return others or reason

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from contact_scene import RadialDiscretisation, Scene
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.load_history import LoadHistory
 from contact_scene.quantities.ring_increment import RingIncrement
 from radial.plan import Plan
@@ -51,3 +52,8 @@ class Result(LoadHistory[Increment]):
     def tolerance(self) -> float:
         """Tolerance of the solve, an upper bound of all residuals of all increments."""
         return self.fineness.tolerance
+
+    @property
+    def ring_fineness(self) -> Fineness:
+        """Factor of the default number of rings, increments of each load step, and tolerance."""
+        return Fineness(self.plan.fineness, self.plan.increments, self.tolerance)

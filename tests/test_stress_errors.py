@@ -1,6 +1,7 @@
 """Tests of the errors of stresses: they cover the true errors of largest stresses and of points."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,7 +30,7 @@ from contact_errors.stress_errors import (
     stress_errors,
 )
 from contact_results.stress.below_contact import body_response
-from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
@@ -48,6 +49,7 @@ from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
+from radial.discretised import RingSolver
 from semi_analytical import solve
 from slipstick import stated_errors
 from verification.closed_forms.huber_stress import huber_stress, trailing_edge_tension
@@ -243,15 +245,42 @@ def test_a_small_stick_zone_leaves_the_stress_at_its_centre_open(
     assert (error.reason == SMALL_STICK) != resolved
 
 
-def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions() -> None:
+def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path: Path) -> None:
+    push_ = LoadStep(tangential_force=(120.0, 0.0), increments=2)
+    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.2, push_)
+    solver = RingSolver(posed, RadialDiscretisation())
+    run, fine = (solver.solve(replace(solver.run_fineness(), space=rings)) for rings in (0.8, 1.6))
+    package.save(run, tmp_path / "run", figures="none")
+    stored = state_of_run(tmp_path / "run", None)
+    assert stored.ring_fineness == state_of_result(run, None).ring_fineness
+    state = replace(stored, by_increments=0.0, shear_error=0.0)
+    field = body_response(state).stress()
+    found = extremes(field)
+    known = extremes(body_response(state_of_result(fine, None)).stress())
+    for rough, exact, error in zip(found, known, stress_errors(state, field, found), strict=True):
+        assert abs(rough.value - exact.value) <= size(error) <= 0.1 * exact.value
+
+
+def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any) -> None:
     push_ = LoadStep(tangential_force=(50.0, 0.0), increments=1)
-    posed = indented(0.018, 1e3, None, steel(0.3, 210e9), 0.1, push_)
+    posed = indented(
+        0.018, 1e3, Layer(thickness=A, material=steel(0.3, 150e9)), steel(), 0.1, push_
+    )
     state = state_of_result(package.solve(posed, "radial"), None)
-    field = body_response(state).stress([0.3 * A])
-    found = extremes(field)[:1]
-    (exact,) = stress_errors(replace(state, by_rings=0.0), field, found)
-    (rough,) = stress_errors(replace(state, by_rings=0.01), field, found)
-    assert size(rough) - size(exact) == pytest.approx(0.01 * found[0].value)
+    state = replace(state, by_increments=0.0, shear_error=0.0)
+    field = body_response(state).stress([0.0, 0.5 * A])
+    body, layer, surface = (
+        next(one for one in extremes(field) if (one.region, one.measure) == (region, "von_mises"))
+        for region in ("body", "layer 1", "surface")
+    )
+    monkeypatch.setattr(
+        "contact_errors.stress_errors._below_other_rings",
+        lambda *_: [(2.0, [body.value, layer.value, 0.5 * surface.value])],
+    )
+    *inside, above = stress_errors(state, field, [body, layer, surface])
+    assert surface.value < layer.value == body.value
+    exceeds = surface.value + size(above) - body.value
+    assert [size(one) for one in inside] == pytest.approx([exceeds, exceeds])
 
 
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
@@ -37,7 +38,7 @@ from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
-from radial.stress.circle_fit import fit_tangential_circle
+from radial.stress.circle_fit import axisymmetric_circle, fit_tangential_circle
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
 from radial.stress.subsurface_circle import SubsurfaceCircle
@@ -131,6 +132,23 @@ def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
     x, y = np.array([0.5, -0.5, 0.3, -0.6]), np.array([0.1, -0.2, 0.6, 0.4])
     found = circle.interpolate_tractions((x - circle.centre) / circle.radius, y / circle.radius)
     assert_allclose(found, tractions(x, y), rtol=2e-3)
+
+
+def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring() -> None:
+    radii, angles = np.linspace(0.0, 1.2, 61), np.linspace(0, np.pi, 10)
+    s = np.maximum(1 - radii**2, 0.0)
+    p = np.sqrt(np.where(s > 0, 0.02 + s**2, 0.0))[:, None] * np.ones_like(angles)
+    circle = fit_tangential_circle(radii, angles, 0 * p, 0 * p, p)
+    assert_allclose([circle.radius, circle.centre], [1.0, 0.0], atol=0.1)
+
+
+@pytest.mark.parametrize("scatters", [False, True])
+def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters: bool) -> None:
+    radii = np.append(np.linspace(0.0, 0.98, 25), [0.992, 0.996, 0.9999, 1.01, 1.2])
+    p = np.sqrt(np.maximum(1 - radii**2, 0.0))
+    p[-5:-2] *= np.array([0.8, 1.3, 5.0]) if scatters else 1.0
+    circle = axisymmetric_circle(radii, 1.0, 0.1 * p, 0.2 * p, p, on_points=scatters)
+    assert_allclose(circle.smooth[..., 0], np.ones((3, 241)) * [[0.1], [0.2], [1.0]], rtol=1e-9)
 
 
 @pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])
@@ -300,12 +318,29 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     assert float(error.error) < 0.05 * largest[0].value
 
 
-@pytest.mark.parametrize("thickness", [0.4, 8.0])
-def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) -> None:
-    """Also where the tension of an interface begins beyond the first window, and in a base that
-    begins below the usual depths."""
-    radius = 0.86e-3  # of the contact without layer
-    scene = scene_of(on_steel(thickness * radius, 2e10), LARGE, 1e3)
+A_BARE = 0.86e-3  # contact radius without layer [m]
+TWO_LAYERS = on_steel(0.9 * A_BARE, 2.4e11).layers + on_steel(0.16 * A_BARE, 1.2e12).layers
+
+
+OTHER_LAYERS = tuple(
+    Layer(thickness=h, material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=nu))
+    for h, modulus, nu in ((3.397e-4, 2.444e11, 0.197), (6.276e-5, 1.186e12, 0.281))
+)
+
+
+@pytest.mark.parametrize(
+    ("body", "upper"),
+    [
+        (on_steel(0.4 * A_BARE, 2e10), RIGID),
+        (on_steel(8.0 * A_BARE, 2e10), RIGID),
+        (Body(material=STEEL, layers=TWO_LAYERS), RIGID),
+        (Body(material=STEEL, layers=OTHER_LAYERS), STEEL),
+    ],
+)
+def test_cells_have_the_largest_stresses_of_the_radial_solver(body: Body, upper: Any) -> None:
+    """Also where the tension of an interface begins beyond the first window, in a base that begins
+    below the usual depths, and between the points of sections and depths."""
+    scene = scene_of(body, Paraboloid(radius=18e-3, material=upper), 1e3)
     named = []
     for solver, sizes in (
         ("semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
@@ -316,7 +351,9 @@ def test_cells_have_the_largest_stresses_of_the_radial_solver(thickness: float) 
         assert field.shown[1] <= 3.01 * state.contact_radius  # deeper points are not drawn
         named.append({(one.region, one.measure): one for one in extremes(field)})
     cells, rings = named
-    assert cells.keys() == rings.keys()
+    highest = rings["body", "von_mises"].value
+    assert all(rings[key].value < 1e-4 * highest for key in rings.keys() - cells.keys())
     for key, one in cells.items():
         assert not one.at_window_edge
-        assert_allclose(one.value, rings[key].value, rtol=0.03)
+        allowed = 0.005 if one.depth else 0.03
+        assert_allclose(one.value, rings[key].value, rtol=allowed, err_msg=str(key))

@@ -88,6 +88,8 @@ def write_fields(
         if hasattr(result, "discretisation"):
             fineness = result.discretisation.model_dump_json()
             _write_dataset(file, "discretisation", fineness, Reported("", "discretisation (JSON)"))
+        if hasattr(result, "ring_fineness"):
+            file.attrs["ring_factor"] = result.ring_fineness.space
         for name, values in surface.axes.items():
             _write_dataset(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)

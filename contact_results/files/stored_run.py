@@ -31,6 +31,7 @@ from contact_results.files.stored_values import (
 )
 from contact_results.surface import SURFACE_FIELDS, Surface, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.per_length import ATTRIBUTES
 from contact_scene.quantities.summary import (
@@ -121,6 +122,8 @@ class StoredRun:
     last_cycle      fields of the last closed load cycle; empty if there is none
     direction       unit vector of the tangential load, at angle 0
     discretisation  settings of the finite elements; None for other solvers
+    ring_factor     factor of the default number of rings of the radial solver; None for others, and
+                    if the file does not state it
     """
 
     summary: RunSummary
@@ -130,6 +133,7 @@ class StoredRun:
     last_cycle: StoredGroup
     direction: tuple[float, float]
     discretisation: FiniteElementDiscretisation | None
+    ring_factor: float | None
 
     @cached_property
     def surface(self) -> Surface:
@@ -141,6 +145,14 @@ class StoredRun:
     def solver(self) -> str:
         """Name of the solver of the run."""
         return self.summary.solver
+
+    @property
+    def ring_fineness(self) -> Fineness | None:
+        """Rings, increments and tolerance of the radial solver; None without `ring_factor`."""
+        if self.ring_factor is None:
+            return None
+        counts = np.unique(self.increments["step"].array, return_counts=True)[1]
+        return Fineness(float(self.ring_factor), tuple(counts.tolist()), self.summary.tolerance)
 
     def end_of_step(self, number: int) -> SimpleNamespace:
         """Read scalars and fields at the end of a load step, see `increment`.
@@ -212,9 +224,10 @@ def load(directory: str | PathLike[str]) -> StoredRun:
             if "increments" not in file:
                 raise ValueError("it has no increments")
             x, y = file.attrs.get("direction", (1.0, 0.0))
+            ring_factor = file.attrs.get("ring_factor")
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
     places, increments, cycle = groups
     direction = float(x), float(y)
-    return StoredRun(record, scene, places, increments, cycle, direction, fineness)
+    return StoredRun(record, scene, places, increments, cycle, direction, fineness, ring_factor)

@@ -19,6 +19,7 @@ from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import Strain, stress_by
+from contact_scene.discretised import Fineness
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.increment import State
 from contact_scene.quantities.stated_error import (
@@ -67,8 +68,6 @@ class LoadedBodies:
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the pressure relative to the pressure; None if unknown
     shear_error     increment error of the shear relative to the shear; None if unknown
-    by_rings        error of the tractions of the radial solver by its rings, relative to the
-                    tractions; 0 for other solvers; None if unknown
     by_map          error of the tractions by the points of a measured indenter, relative to the
                     tractions; 0 for other shapes; None if unknown
     direction       unit vector of the tangential load, at angle 0 of rings
@@ -80,6 +79,8 @@ class LoadedBodies:
     peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
     scene           scene of the result; None if unknown
+    ring_fineness   rings and increments of the radial solver; None for other solvers, and if a
+                    stored run does not state them
     """
 
     title: str
@@ -93,7 +94,6 @@ class LoadedBodies:
     edges: bool = False
     by_increments: float | None = None
     shear_error: float | None = None
-    by_rings: float | None = None
     by_map: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
@@ -103,6 +103,7 @@ class LoadedBodies:
     peak_pressure: float | None = None
     strain: Strain | None = None
     scene: Scene | None = None
+    ring_fineness: Fineness | None = None
 
     @property
     def on_rings(self) -> bool:
@@ -289,7 +290,6 @@ def loaded_bodies(
         edges=end.edge_change is not None,
         by_increments=_relative_part(end, errors, "increments", OF_PRESSURE),
         shear_error=shear_error,
-        by_rings=_relative_part(end, errors, "quadrature", OF_PRESSURE),
         by_map=_relative_part(end, errors, "map", OF_TRACTIONS),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
@@ -299,6 +299,7 @@ def loaded_bodies(
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
         scene=scene,
+        ring_fineness=getattr(source, "ring_fineness", None),
     )
 
 

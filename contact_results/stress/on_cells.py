@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import ceil, log, log1p
 from typing import TYPE_CHECKING, ClassVar
 
@@ -23,7 +24,10 @@ from contact_results.stress.points import (
     StressField,
     StressPoints,
 )
-from contact_results.stress.stress_maxima import extremes
+from contact_results.stress.stress_maxima import (
+    excess_between_depths,
+    extremes,
+)
 from contact_scene.array_types import Field, Indices
 from contact_scene.machine import one_thread
 from contact_scene.quantities.stated_error import Part
@@ -50,6 +54,13 @@ FEW_CELLS = 64
 GRADING = 0.02
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
+# Excess of a parabola between depths, relative to a largest stress, up to which no further depth is
+# computed: errors of this size remain at fitted edges, too.
+EXCESS = 1e-3
+# Ratio of a further depth to the deepest one, if the largest stress lies there, and largest number
+# of times that depths are added: they reach to 77 contact radii, where nothing is largest.
+DEEPER = 1.5
+MORE_DEPTHS = 8
 # Largest number of cells along a side for the overview, whose stress then takes less than a second,
 # and interval of the default depths that it uses.
 MAX_DRAWN = 64
@@ -335,7 +346,44 @@ class OnCells(BodyResponse):
                 points = StressPoints.concatenate([beyond.points, field.points])
                 field = replace(wide, points=points, edge=field.edge, volume=field.volume)
                 margin = WIDE_MARGIN
-        return self._beyond_window(field, margin)
+        field = self._beyond_window(field, margin)
+        return field if depths is not None else self._between_depths(field, margin)
+
+    def _between_depths(self, field: StressField, margin: float) -> StressField:
+        """Add points next to the depth of a largest stress that may be exceeded there.
+
+        These depths are halfway to the next depths, until the excess of a parabola is at most
+        `EXCESS` of the stress, and below the deepest one. Depths near the surface are dense
+        already.
+
+        margin  smallest half width of the window in half extents of the contact
+        """
+        from semi_analytical.frf.depth import Level
+        from semi_analytical.stress import near_surface
+
+        window = CellWindow.around_contact(self.state, self.indenter, margin)
+        for _ in range(MORE_DEPTHS):
+            points, measures = field.points, field.points.measures
+            levels = set()
+            for one in extremes(field):
+                values = measures[one.measure]
+                layer = int(points.material[np.argmax(values == one.value)])
+                excess, three = excess_between_depths(points, values, one)
+                depths: list[float] = []
+                if excess > EXCESS * one.value:
+                    depths = [(a + b) / 2 for a, b in pairwise(three)]
+                elif layer == len(self.body.layers) and one.depth == np.max(points.depth):
+                    depths = [DEEPER * one.depth]
+                levels |= {
+                    Level(depth, layer)
+                    for depth in depths
+                    if not near_surface(depth, window.grid.spacing)
+                }
+            if not levels:
+                break
+            more = window.largest_outside(sorted(levels, key=lambda level: level.depth), (-1, -1))
+            field = replace(field, points=StressPoints.concatenate([points.flattened, more]))
+        return field
 
     def _beyond_window(self, field: StressField, margin: float) -> StressField:
         """Add points beyond the window at interfaces, and where a largest stress lies at its edge.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import hypot
 from typing import TYPE_CHECKING, ClassVar
 
@@ -41,7 +42,7 @@ class OnDisc(BodyResponse):
 
     part: ClassVar[Part] = "quadrature"
 
-    @property
+    @cached_property
     def radial_body(self) -> RadialBody:
         """The body with the functions that compute its stress.
 
@@ -83,10 +84,9 @@ class OnDisc(BodyResponse):
         if depths is not None:
             return field
         centre_x, centre_y = (body.centre * component for component in body.direction)
+        inner = (1 - 1e-9) * body.reach * radius  # at its end, the largest may lie farther out
         nearer = [
-            (
-                body if hypot(one.x - centre_x, one.y - centre_y) <= body.reach * radius else wide
-            ).largest(one)
+            (body if hypot(one.x - centre_x, one.y - centre_y) < inner else wide).largest(one)
             for one in extremes(field)
             if one.region in body.parts.named and one.measure in self.measures
         ]
@@ -158,6 +158,48 @@ class OnDisc(BodyResponse):
             else:
                 found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
         return StressPoints.concatenate(found).rotate_to_scene(body.direction)
+
+    def contains(self, region: str, other: str) -> bool:
+        """Return True if a region of the body contains another one, or is the same."""
+        named = self.radial_body.parts.named
+        if region not in named:  # the whole body
+            return True
+        (layer, top, bottom), (within, highest, lowest) = (
+            named[region],
+            named.get(other, (-1, 0, 0)),
+        )
+        return layer == within and top <= highest and lowest <= bottom
+
+    @one_thread()
+    def values_near(
+        self, found: Sequence[Extreme], levels: Sequence[Level], moves: Sequence[bool]
+    ) -> list[float]:
+        """Compute the values of largest stresses that were found below other tractions.
+
+        found   largest stresses, with their places and measures
+        levels  depth and layer of each of them
+        moves   True for those whose place depends on the tractions: the largest value next to it is
+                searched
+        """
+        x, y = np.array([(each.x, each.y) for each in found]).T
+        measures = self.stress_at(x, y, levels).measures
+        values = [float(measures[each.measure][k]) for k, each in enumerate(found)]
+        body = self.radial_body
+        searched: dict[tuple[str, float, float, float], float] = {}
+        centre_x, centre_y = (body.centre * component for component in body.direction)
+        inside = np.hypot(x - centre_x, y - centre_y) < body.reach * body.parts.radius
+        for k, (each, free) in enumerate(zip(found, inside & moves, strict=True)):
+            if free and each.region in body.parts.named:
+                near = float(np.max(body.largest(each).measures[each.measure]))
+                place = each.measure, each.x, each.y, each.depth
+                searched[place] = max(near, searched.get(place, near))
+                values[k] = near
+        # The largest stress of the whole body is that of one of its regions.
+        for k, each in enumerate(found):
+            if each.region not in body.parts.named:
+                place = each.measure, each.x, each.y, each.depth
+                values[k] = searched.get(place, values[k])
+        return values
 
     def compared(self) -> Sequence[OnDisc]:
         return [replace(self, fineness=2 * self.fineness)]

@@ -159,6 +159,7 @@ class RadialBody:
         body      the body in which the stress is computed
         stack     the elastic layers and the base of this body
         """
+        from radial.plan import plan
         from radial.stress.circle_fit import (
             ANOTHER,
             USUAL,
@@ -176,10 +177,11 @@ class RadialBody:
         names = ("shear_radial", "shear_circumferential")
         outward, around = (state.tractions.get(name, np.zeros_like(p)) for name in names)
         if surface.angles is None:
-            circle, highest = (
-                axisymmetric_circle(surface.radii, state.pressed[1], outward, around, p),
-                1,
+            on_points = state.scene is not None and plan(state.scene).circle is not None
+            circle = axisymmetric_circle(
+                surface.radii, state.pressed[1], outward, around, p, on_points=on_points
             )
+            highest = 1
         else:
             fit = USUAL if fineness == 1 else ANOTHER
             circle = fit_tangential_circle(surface.radii, surface.angles, outward, around, p, fit)

@@ -17,6 +17,8 @@ from contact_results.stress.points import (
     layer_name,
 )
 from contact_scene import Body, IsotropicMaterial
+from contact_scene.array_types import Field
+from contact_scene.discretised import PRECISION
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
 
@@ -61,6 +63,35 @@ def extremes(field: StressField) -> tuple[Extreme, ...]:
             if key not in found or extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
+
+
+def excess_between_depths(
+    points: StressPoints, values: Field, extreme: Extreme
+) -> tuple[float, tuple[float, ...]]:
+    """Estimate how much the largest stress exceeds the value found at discrete depths.
+
+    The estimate is that of a parabola through the largest values at the depth of this stress and at
+    the next depths above and below.
+
+    points   points of the stress field
+    values   stress measure at these points
+    extreme  largest value of this measure
+
+    Returns the excess and the three depths [length]; 0 and no depths on an interface and at the end
+    of a material.
+    """
+    here = (points.depth == extreme.depth) & (values == extreme.value)
+    inside = points.material == points.material.flat[int(np.argmax(here))]
+    levels = np.unique(points.depth[inside])
+    round_off = PRECISION * levels[-1]  # of equal depths in two refinements of a maximum
+    above = levels[levels < extreme.depth - round_off]
+    below = levels[levels > extreme.depth + round_off]
+    if extreme.region.startswith("interface") or not (above.size and below.size):
+        return 0.0, ()
+    three = float(above[-1]), extreme.depth, float(below[0])
+    largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
+    bend, slope, _ = np.polyfit(np.array(three) - extreme.depth, largest, 2)
+    return (float(slope**2 / (-4 * bend)) if bend < 0 else 0.0), three
 
 
 def _largest_in_regions(field: StressField, points: StressPoints) -> Iterator[Extreme]:

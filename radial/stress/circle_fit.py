@@ -25,8 +25,12 @@ from radial.stress.loaded_circle import LoadedCircle
 RADII = 241
 ANGLES = 360
 FEWEST = 4  # least number of rings that determine the edge
+# Distance from the centre, over the contact radius, up to which rings of an axisymmetric contact at
+# points are used. Beyond it, the pressure over its root scatters by up to a half.
+OUTERMOST = 0.99
 HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
+ZERO = 1e-9  # square of the pressure at a zero, over the largest one; more has not converged
 PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
 
 
@@ -55,11 +59,11 @@ class EdgeFit(NamedTuple):
 
 USUAL = EdgeFit()
 # Second fit of equal quality. The difference of both is an error estimate.
-ANOTHER = EdgeFit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
+ANOTHER = EdgeFit(begins=0.6, powers=3, fitted_from=0.87)
 
 
 def axisymmetric_circle(
-    radii: Array, radius: float, outward: Array, around: Array, p: Array
+    radii: Array, radius: float, outward: Array, around: Array, p: Array, *, on_points: bool
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
 
@@ -67,14 +71,18 @@ def axisymmetric_circle(
     radius              contact radius [length]
     outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the rings (n,)
                         [force/length²]
+    on_points           True if the tractions are unknowns of a contact at points, which scatter at
+                        the edge, False if they are those of a known contact edge
     raises              UnsupportedScene if too few rings resolve the contact
     """
-    within = radii < (1 - 1e-9) * radius
+    within = radii < (OUTERMOST if on_points else 1 - 1e-9) * radius
     eta = radii[within] / radius
     _refuse_few(len(eta))
     root = np.sqrt((1 - eta) * (1 + eta))
     places = np.linspace(0.0, 1.0, RADII)
-    smooth = CubicSpline(eta, p[within] / root)(places)
+    spline = CubicSpline(eta, p[within] / root)
+    beyond = np.maximum(places - eta[-1], 0.0)
+    smooth = spline(places - beyond) + spline(eta[-1], 1) * beyond
     shear_ratios = [
         np.interp(places, eta, q[within] / p[within]) * smooth for q in (outward, around)
     ]
@@ -101,8 +109,7 @@ def fit_tangential_circle(
     r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
     fitted = (p > fit.over * np.max(p)) & (r > fit.begins)
     _refuse_few(int(np.min(np.count_nonzero(fitted, axis=0))))
-    squared = _least_squares(1 - r * r, theta, p * p, np.where(fitted, weights, 0), fit.powers + 1)
-    centre, radius = _fit_edge_circle(squared, angles)
+    centre, radius = _fit_edge_circle(r, theta, p, np.where(fitted, weights, 0), fit.powers + 1)
     cos, sin = np.cos(theta), np.sin(theta)
     x, y = r * cos, r * sin
     rho, angle = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
@@ -179,32 +186,39 @@ def _least_squares(
 
 
 def _fit_edge_circle(
-    squared: Callable[[Array, Array], Array], angles: Array
+    r: Array, theta: Array, p: Array, weights: Array, powers: int
 ) -> tuple[float, float]:
-    """Find centre and radius of the circle on which a fit of the squared pressure is zero.
+    """Fit the squared pressure, and find centre and radius of the circle on which it is zero.
 
     The circle is the contact edge. Newton's method finds a zero of the fit at each angle, and least
-    squares give the circle. The centre lies on the x axis. Both results are over the radius of the
-    outermost loaded ring.
+    squares give the circle. If a fit has no zero, because the pressure waves, the highest power is
+    reduced. The centre lies on the x axis. Both results are over the radius of the outermost loaded
+    ring.
 
-    squared  fit of p² as a function of 1 - r² and the angle
-    angles   angles at which the zeros are found [radian]
-    raises   UnsupportedScene if the fit has no zero near the outermost loaded ring
+    r, theta  coordinates of the nodes, r over the radius of the outermost loaded ring
+    p         pressure at the nodes [force/length²]
+    weights   weights of the nodes in the fit
+    powers    highest power of 1 - r² in the fit
+    raises    UnsupportedScene if no fit has a zero near the outermost loaded ring
     """
-    s, step = np.zeros_like(angles), 1e-6
-    for _ in range(STEPS):
-        slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
-        s -= squared(s, angles) / slope
-    if not np.all(np.abs(s) < 1):
-        raise UnsupportedScene(
-            "the pressure of the outer rings does not determine the edge of the contact, which the "
-            f"stress below the surface requires. Use more increments, or {ELSEWHERE}"
-        )
-    # r² = 2 x c + R² - c²
-    x = np.sqrt(1 - s) * np.cos(angles)
-    law = np.stack([2 * x, np.ones_like(x)], axis=1)
-    centre, rest = np.linalg.lstsq(law, 1 - s)[0]
-    return float(centre), float(np.sqrt(rest + centre**2))
+    angles, step = theta[0], 1e-6
+    for highest in range(powers, 0, -1):
+        squared = _least_squares(1 - r * r, theta, p * p, weights, highest)
+        s = np.zeros_like(angles)
+        for _ in range(STEPS):
+            slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
+            s -= squared(s, angles) / slope
+        is_zero = np.abs(squared(s, angles)) < ZERO * np.max(p) ** 2
+        if np.all(is_zero & (np.abs(s) < 1)):
+            # r² = 2 x c + R² - c²
+            x = np.sqrt(1 - s) * np.cos(angles)
+            law = np.stack([2 * x, np.ones_like(x)], axis=1)
+            centre, rest = np.linalg.lstsq(law, 1 - s)[0]
+            return float(centre), float(np.sqrt(rest + centre**2))
+    raise UnsupportedScene(
+        "the pressure of the outer rings does not determine the edge of the contact, which the "
+        f"stress below the surface requires. Use more increments, or {ELSEWHERE}"
+    )
 
 
 def _extend_outwards(ratio: Array, known: Mask) -> Array:

@@ -543,7 +543,9 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
     """
     end = result.steps[-1]
     nothing = np.zeros_like(end.radii)
-    still = axisymmetric_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
+    still = axisymmetric_circle(
+        end.radii, end.contact_radius, nothing, nothing, end.pressure, on_points=False
+    )
     p = np.broadcast_to(still.smooth[2], (still.smooth.shape[1], 4))
     sliding = LoadedCircle(still.radius, 0.0, np.stack([FRICTION * p, 0 * p, p]))
     below = SubsurfaceCircle(sliding, stack_of(problem.scene.body), REACH, 1)
