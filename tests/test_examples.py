@@ -1,6 +1,7 @@
 """Tests of the scripts in examples/ and in the README: each runs and exits with code 0.
 
-The script of the README runs on few cells and increments.
+The script of the README runs on few cells and increments. Lines that take long are left out where
+other tests run the same on coarse cells.
 """
 
 import json
@@ -26,6 +27,10 @@ from made_notebooks import notebook  # noqa: E402
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 LONG = ("granular_path",)
+LEFT_OUT = {
+    "critical_load": 'report("coated", coated)\n',
+    "contact_stiffness": 'report("coated", bare.model_copy(update={"body": film}))\n',
+}
 
 
 def assert_runs(script: Path, folder: Path) -> None:
@@ -55,6 +60,11 @@ def test_example_keeps_its_promise(
         return outcome(*words[3:], cwd=tmp_path) if own else run(words, **how)
 
     monkeypatch.setattr(subprocess, "run", run_here)
+    if left_out := LEFT_OUT.get(script.stem):
+        before, _, after = script.read_text(encoding="utf-8").partition(left_out)
+        script = tmp_path / script.name
+        script.write_text(before + after, encoding="utf-8")
+        assert after
     assert_runs(script, tmp_path)
 
 
