@@ -232,7 +232,6 @@ FAILED = {
     "killed": "level 0: SIGKILL, which the system sends for lack of memory",
     "is_ended": "level 0: SIGXCPU",
     "has_no_memory": "MemoryError: grid",
-    "is_endless": "gave no answer on level 0 within 1 s",
     "waits_for_its_child": "gave no answer on level 0 within 1 s",
     "leaves_its_child": "ended without an answer on level 0: exit code 0",
     "cannot_be_sent": "raised an exception on level 0:.*pickle",

@@ -190,18 +190,23 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
 
 @pytest.mark.parametrize(
     ("solver", "share"),
-    [("semi-analytical", 0.0), ("radial", 0.0), ("fem", 0.0), ("semi-analytical", 0.5)],
+    [("radial", 0.0), ("fem", 0.0), ("semi-analytical", 0.5)],
 )
 def test_the_shear_of_pressing_has_an_error_that_no_scalar_shows(solver: Any, share: float) -> None:
     """All sticks, and few increments leave errors in the shear, which hardly changes peak pressure
     and approach. A load along the surface leaves this shear as it is."""
     friction, more = 0.9, share * 0.9e3
+    asked = {
+        "semi-analytical": cells(16),
+        "fem": elements(32),
+        "radial": RadialDiscretisation(rings=8),
+    }
 
     def solved(increments: int) -> Any:
         loads = [{"normal_force": 1e3}, *([{"tangential_force": (more, 0.0)}] if share else [])]
         posed = indented(0.018, 1e3, None, steel(0.2, 210e9), friction)
         posed = posed.replace({"loading": [{**load, "increments": increments} for load in loads]})
-        return package.solve(posed, solver, cells(24) if solver == "semi-analytical" else None)
+        return package.solve(posed, solver, asked[solver])
 
     name = "von_mises@body"
     exact, _ = largest_stresses(solved(48), None, [name])[name]
