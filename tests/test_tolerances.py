@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from report_examples import a_case, verdict
 
 from verification.judging.case import Level
 from verification.regression.baseline import BaselineRefused, read_baselines
-from verification.regression.tolerances import (
-    read_tolerances,
-)
+from verification.regression.tolerances import Tolerances, held_to, read_tolerances, text_of
 
 
 def test_a_damaged_file_of_tolerances_is_named(tmp_path: Path) -> None:
@@ -32,3 +31,13 @@ def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> No
     assert all(one.because for one in accepted)
     named = [pair for one in accepted for pair in one.tolerances.items()]
     assert {(case, key) for case, keys in named for key in keys} <= recorded
+
+
+def test_no_tolerance_is_smaller_than_the_uncertainty_of_the_reference() -> None:
+    one = verdict("radius", 1.0, 1.0).model_copy(update={"reference_uncertainty": 6e-3})
+    outcome = a_case("case").model_copy(update={"verdicts": (one,)})
+    of_case = {"case": {text_of(one): {"allowed": 1e-4, "error": 1e-5}}}
+    accepted = {"because": "why", "commit": None, "kernels": [], "tolerances": of_case}
+    known = Tolerances.model_validate({"level": "quick", "accepted": [accepted]})
+    (held,) = held_to([outcome], known)
+    assert held.verdicts[0].allowed == 6e-3
