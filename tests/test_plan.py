@@ -4,14 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import INDENTERS, PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
+from contact_scenes import INDENTERS, PRESS, RIGID_BALL, paraboloid, push, scene, slide
 from coupled_scenes import bulk, coated
 from coupled_scenes import scene as coupled_scene
 
 import fem_reference
 import radial
-from contact_scene import Body, Layer
-from contact_scene.body_pair import contact_modulus, outermost_beta
 from contact_scene.stepping.load_stepping import fractions
 from semi_analytical import Coupling, all_effects, plan
 from semi_analytical.operator.domain import WINDOW
@@ -55,21 +53,6 @@ def test_increments_follow_small_loads_by_the_contact_radius(least, shape, order
         parts = np.array([0.0, *fractions(posed, ramp, 5)])
         steps = np.diff(((start + parts * (end - start)) / loads[1]) ** (1 / order))
         assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
-
-
-def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
-    film, inner = steel(0.2, 3e11), steel(0.45, 3e10)
-    layers = tuple(Layer(thickness=1e-3, material=one) for one in (film, inner))
-    bare, alone, layered = (
-        scene(PRESS, indenter=RIGID_BALL).model_copy(update={"body": body})
-        for body in (
-            Body(material=steel()),
-            Body(material=film),
-            Body(material=steel(), layers=layers),
-        )
-    )
-    for of in (contact_modulus, outermost_beta):
-        assert of(layered) == of(alone) != of(bare)
 
 
 DEFAULT = 1e-2
