@@ -24,37 +24,10 @@ APPROACH = {HERTZ.approach!r}
 RADIUS = {HERTZ.contact_radius!r}
 PEAK = {HERTZ.peak_pressure!r}
 """
-FILE = (
-    CONSTANTS
-    + """
-from verification import Answer
-
-def right(problem, level):
-    values = {("approach", 1): APPROACH, ("contact_radius", 1): RADIUS}
-    return Answer(1e-5, values)
-"""
-)
 
 
 def judge(*arguments: object) -> int:
     return slipstick("judge", *arguments)
-
-
-def test_a_file_imports_what_lies_beside_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "path", list(sys.path))
-    (tmp_path / "kernel_of_a_stranger.py").write_text(FILE)
-    beside, lost = tmp_path / "beside.py", tmp_path / "lost.py"
-    beside.write_text("from kernel_of_a_stranger import right\n")
-    lost.write_text("from no_such_kernel import right\n")
-    asked = ("--case", "hertz_point", "--levels", "1")
-    assert judge(f"{beside}:right", *asked) == 0
-    assert judge(f"{lost}:right", *asked) == 2
-    assert (
-        f"{lost.name}: ModuleNotFoundError: No module named 'no_such_kernel'"
-        in capsys.readouterr().err
-    )
 
 
 # ---- functions that leave, hang or change what they are given -----------------------------------
