@@ -1,7 +1,7 @@
 """Print the numbers that the program declares, without a solve unless it is cheap.
 
-`python declared.py LEVEL` prints those of cases, challenges, studies and the closures of their
-functions.
+    python declared.py LEVEL   in cases, challenges, studies and the closures of their functions
+    python declared.py DRAWN   in the scenes of the stability map and in scenes drawn at random
 
 Each number counts by its logarithm, so that a small number counts as much as a large one.
 """
@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import partial
+from itertools import product
 from types import FunctionType, MethodType
 from zlib import crc32
 
@@ -21,10 +22,18 @@ from verification.cases.catalogue import choose
 from verification.challenge.cases import challenges
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
+from verification.problems.drawn.families import FAMILIES, drawn
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
+from verification.studies.stability.contacts import LoadingPath, StabilityCell, Surface, pose
 
 ROUND_OFF = 1e-13  # of computed references
+SCENES = 4  # of each family
+# One family of each rule, and of each solver.
+ANSWERED = """
+    balls shapes tilted pushed near-sliding sliding twisted gross-slip oblique friction-maps
+    elements-pushed elements-twisted
+"""
 
 
 def parts(value: object) -> Iterator[str | float]:
@@ -91,4 +100,20 @@ def show_level(level: Level) -> None:
         show("defects", "", DEFECTS)
 
 
-show_level(Level[sys.argv[1]])
+def show_drawn() -> None:
+    """Print posed scenes of all kinds, and the answers of those that take little time."""
+    for surface, path in product(Surface, LoadingPath):
+        cell = StabilityCell(surface=surface, path=path)
+        show("posed", cell.name, pose(cell))
+    for name, family in FAMILIES.items():
+        posed = [family.posed(np.random.default_rng(seed)) for seed in range(SCENES)]
+        show("drawn", name, posed)
+    for name in ANSWERED.split():
+        truths = drawn(name, 2, 0).truths
+        show("answer", name, [(one.step, one.quantity, one.reference.value) for one in truths])
+
+
+if sys.argv[1] == "DRAWN":
+    show_drawn()
+else:
+    show_level(Level[sys.argv[1]])
