@@ -41,10 +41,6 @@ def row(
     return coverage_row(truth, 2.0 * (1 + wrong), error)
 
 
-def coverage(rows: Sequence[Row]) -> Coverage:
-    return Coverage.of(APPROACH, rows)
-
-
 MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
 JUDGED = {"covered", "tight", "wide", "false_marks"}
 # A number, the shares that it belongs to, and those in which it counts.
@@ -75,7 +71,9 @@ def test_each_number_is_counted_once(name: str) -> None:
         Share(int(share in inside), int(share in counted))
         for share in ("covered", "tight", "wide", "apart", "false_marks")
     )
-    assert coverage([one]) == Coverage(APPROACH, *shares, int("undecided" in inside), 0)
+    assert Coverage.of(APPROACH, [one]) == Coverage(
+        APPROACH, *shares, int("undecided" in inside), 0
+    )
 
 
 def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, CaseRecord]:
