@@ -35,6 +35,7 @@ from contact_scene.solver_errors import SolverError, UnsupportedScene
 from slipstick.solving import check_arguments
 
 if TYPE_CHECKING:
+    from contact_results.stress.points import StressField
     from contact_scene.discretised import Discretisation, DiscretisedSolver
 
 # "body" or "indenter", region of the body as in `stress_maxima`, and stress measure.
@@ -210,6 +211,7 @@ class LoadFactorSearch:
     solved    largest stresses by ln f, each with the increment at the end of its load step; without
               stresses that are nowhere positive
     last      ln f and result of the last solve
+    stresses  stress of a body by ln f, load step and body
     """
 
     solver: DiscretisedSolver
@@ -217,6 +219,7 @@ class LoadFactorSearch:
     progress: Callable[[float], None] | None
     solved: dict[float, dict[Key, tuple[Extreme, Any]]] = field(default_factory=dict)
     last: tuple[float, Any] = (inf, None)
+    stresses: dict[tuple[float, int, str], StressField] = field(default_factory=dict)
 
     def critical_load(self, key: Key) -> CriticalLoad:
         """Find the load factor at which a stress measure first meets its strength."""
@@ -307,6 +310,7 @@ class LoadFactorSearch:
             state = self._state(result, end.step)
             for which in {body for body, _, _ in self.wanted}:
                 stress = body_response(state, indenter=which == "indenter").stress()
+                self.stresses[x, end.step, which] = stress
                 for one in extremes(stress):
                     key = which, one.region, one.measure
                     smallest = found[key][0].value if key in found else 0.0
@@ -343,7 +347,7 @@ class LoadFactorSearch:
         try:
             result = self._solve(x)
             state = self._state(result, end.step, stated_errors(result))
-            below = body_response(state, indenter=upper).stress()
+            below = self.stresses[x, end.step, key[0]]
             (error,) = stress_errors(state, below, [extreme], indenter=upper)
         except SolverError as failed:
             return unknown_error(str(failed))

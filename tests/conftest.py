@@ -38,7 +38,6 @@ LONGEST = (
     "test_shipped_scenes",
     "test_examples",
     "test_judge_a_function",
-    "test_whole_commands",
     "test_against",
     "test_declared_cases",
     "test_seeded_defects",

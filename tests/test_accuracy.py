@@ -49,9 +49,7 @@ from contact_results.directory import checkpoint
 from contact_scene import (
     RIGID,
     Body,
-    Cone,
     FiniteElementDiscretisation,
-    FlatPunch,
     HeightMap,
     Layer,
     RadialDiscretisation,
@@ -181,18 +179,6 @@ def test_other_parameters_of_a_mesh_are_refined_by_their_factors() -> None:
     assert finer.overlap == pytest.approx(asked.overlap / 10)
     assert finer.harmonics == 1.5 * asked.harmonics
     assert finer.elements_per_radius == asked.elements_per_radius
-
-
-@pytest.mark.parametrize(
-    "indenter",
-    [Cone(slope_angle=0.05, material=steel()), FlatPunch(radius=A, material=steel())],
-    ids=["cone", "punch"],
-)
-def test_what_is_infinite_is_left_out_and_refused_by_name(indenter) -> None:
-    of = scene(PRESS, indenter=indenter, friction=None)
-    assert "infinite" in climbed(of, "10%").accuracy.left_out["peak_pressure"]
-    with pytest.raises(AccuracyOutOfReach, match=r"peak_pressure.*infinite"):
-        climbed(of, "peak_pressure 10%")
 
 
 def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> None:

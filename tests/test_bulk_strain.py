@@ -48,10 +48,6 @@ def on_rings(contact):
     return radial.solve(contact, RadialDiscretisation(rings=8, tolerance=1e-8))
 
 
-def equibiaxial(strain, increments=8):
-    return {"bulk_strain": (strain, strain, 0.0), "increments": increments}
-
-
 def test_cells_balance_any_strain_out_of_phase_and_need_no_whole_window():
     alike = (
         {"tangential_force": ("60 N", 0), "increments": 3},
@@ -109,7 +105,8 @@ def test_a_stress_is_the_strain_of_a_free_specimen_and_counts_from_the_touch():
 )
 def test_the_stress_below_has_that_of_the_strain_layer_by_layer(solve):
     """Without friction the pressure does not change, and the stress by the strain is added."""
-    contact = scene(PRESS, equibiaxial(STRAIN, 1), body=COATED, friction=None, indenter="rigid")
+    stretch = {"bulk_strain": (STRAIN, STRAIN, 0.0), "increments": 1}
+    contact = scene(PRESS, stretch, body=COATED, friction=None, indenter="rigid")
     result = solve(contact)
     plain, strained = (body_response(state_of_result(result, step)).stress() for step in (1, 2))
     for name in ("section", "axis"):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import re
 import subprocess
 import sys
 import tomllib
@@ -166,23 +164,6 @@ def test_a_class_has_room_for_the_uncertainty_of_the_reference(
 # ---- files --------------------------------------------------------------------------------------
 
 
-@pytest.fixture
-def filled(tmp_path: Path) -> Path:
-    """The challenge, answered rightly."""
-    folder = tmp_path / "challenge"
-    assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
-    file = folder / "answers.json"
-    content = json.loads(file.read_text())
-    values = {"approach": HERTZ.approach, "contact_radius": HERTZ.contact_radius}
-    (level,) = content["levels"]
-    for number in level["numbers"]:
-        number["value"] = values.get(number["quantity"])
-    content["solver"]["name"] = "stranger <b>"
-    content["levels"] = [level | {"h": 4.5e-6, "unknowns": 100, "seconds": 0.1}]
-    file.write_text(json.dumps(content))
-    return folder
-
-
 def test_an_export_that_is_killed_leaves_no_part_that_looks_whole(tmp_path: Path) -> None:
     """The process stops for good at every call that publishes: a new folder is there with all files
     or not at all, and one that was there has the file of answers last."""
@@ -221,63 +202,6 @@ for folder in sys.argv[1:]:
         found = sorted(path.name for path in (folder / "out").glob("[!.]*"))
         assert len(found) == 5 if "answers.json" in found else code == "9"
         assert folder.parent.name == "old" or len(found) in (0, 5), found
-
-
-# Replaced text of the answers, its replacement, and a part of the message.
-REFUSED = [
-    (r".*", "[" * 100_000, "answers.json is damaged: "),
-    (r"\"name\": \"stranger <b>\"", '"name": ""', "key solver.name: got an empty text"),
-    (
-        r"\"name\": \"stranger <b>\"",
-        '"name": "x", "claimed_orders": {"presure": 2}',
-        "claimed order of 'presure': no such quantity; asked here: approach",
-    ),
-    (
-        r"\"name\": \"stranger <b>\"",
-        '"name": "x", "claimed_orders": {"pressure": -1}',
-        "key solver.claimed_orders.pressure: got -1",
-    ),
-    (r"\"case_version\": \"\w*\"", '"case_version": "old"', "for version old of hertz_point"),
-    (r"\"h\": 4.5e-06", '"h": null', "key levels[1].h: got a NoneType"),
-    (r"\"h\": 4.5e-06", '"h": -1', "level 1: h is -1.0, expected a positive length"),
-    (r"\"load_step\": 1, \"value\": [\d.e-]+", '"load_step": 2, "value": 1', "is not asked"),
-    (r"\"contact_radius\"", '"approach"', "approach of step 1 twice"),
-    (r"\"contact_radius\"", '"radius"', "('radius', 1) is not asked; asked: ('approach', 1)"),
-    (
-        r"\"value\": [\d.e-]+",
-        '"value": "8 um"',
-        'numbers[1].value: got "8 um", expected a valid number',
-    ),
-    (r"\"value\": [\d.e-]+", '"value": true', "key levels[1].numbers[1].value"),
-    (r"\"value\": [\d.e-]+", '"value": NaN', "key levels[1].numbers[1].value"),
-    (r"\"value\": [\d.e-]+", '"value": null', "nothing is answered"),
-    (r"\"value\": ([\d.e-]+)", r'"value": [\1]', "expected one number"),
-    (r"\"load_step\": 1", '"load_step": true', "key levels[1].numbers[1].load_step"),
-    (
-        r"\"fields\": \[\]",
-        '"fields": [{"quantity": "pressure", "load_step": 1, "x": [0], "y": [0], "value": [1, 2], '
-        '"area": [1]}]',
-        "a field needs as many numbers of each",
-    ),
-]
-
-
-@pytest.mark.parametrize(("old", "new", "said"), REFUSED)
-def test_answers_in_a_file_are_refused_by_name(
-    filled: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
-) -> None:
-    file = filled / "answers.json"
-    text = re.sub(old, new, file.read_text(), count=0 if "null" in new else 1, flags=re.DOTALL)
-    assert text != file.read_text()
-    file.write_text(text)
-    assert slipstick("judge", filled) == 2
-    assert said in " ".join(capsys.readouterr().err.split())
-
-
-def test_answers_with_a_byte_order_mark_are_read(filled: Path) -> None:
-    file = filled / "answers.json"
-    file.write_text(file.read_text(), encoding="utf-8-sig")
-    assert slipstick("judge", filled) == 0
 
 
 @pytest.mark.parametrize("name", NAMES)

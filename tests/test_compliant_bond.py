@@ -37,12 +37,8 @@ def scene(*layers: Layer) -> Scene:
     )
 
 
-def bonded(thickness: float = 100e-6, material: IsotropicMaterial = HARD) -> Layer:
-    return Layer(thickness=thickness, material=material, interface_stiffness=BOND)
-
-
 def test_layers_merge_through_rigid_bonds_alone() -> None:
-    glued = bonded(material=STEEL)
+    glued = Layer(thickness=100e-6, material=STEEL, interface_stiffness=BOND)
     plain = Layer(thickness=50e-6, material=STEEL)
     assert normal_form(scene(plain, plain)).body.layers == ()
     (merged,) = normal_form(scene(plain, glued)).body.layers

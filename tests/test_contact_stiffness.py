@@ -54,10 +54,6 @@ def ends(solver, *steps, body="alike", **kind):
     return slipstick.solve(asked, solver, settings(solver, EDGES[body])).steps
 
 
-def first(value) -> float:
-    return float(np.ravel(value)[0])
-
-
 def difference(solver, last, names, *before, **kind) -> float:
     """Central difference of the force over the motion, by a changed load of the last step."""
     (key, value), change = next(iter(last.items())), 3e-6
@@ -69,7 +65,7 @@ def difference(solver, last, names, *before, **kind) -> float:
             {key: tuple(np.multiply(value, factor))} if np.ndim(value) else {key: value * factor},
             **kind,
         )[-1]
-        found.append([first(getattr(end, name)) for name in names])
+        found.append([float(np.ravel(getattr(end, name))[0]) for name in names])
     (force, motion), (less, shorter) = found
     return (force - less) / (motion - shorter)
 

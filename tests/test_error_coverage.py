@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import pytest
 
@@ -18,7 +17,6 @@ from verification.problems.problem import Reference, ReferenceKind
 from verification.running.study import CaseRecord, Row, Settings
 from verification.studies.error_coverage import (
     ASKED,
-    ENOUGH,
     REQUESTS,
     TRUE,
     Coverage,
@@ -41,16 +39,6 @@ def row(
     truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 2 * uncertain))
     error = StatedError(error=2 * stated, parts={"cells": 2 * stated}, status=status)
     return coverage_row(truth, 2.0 * (1 + wrong), error)
-
-
-def coverage(rows: Sequence[Row]) -> Coverage:
-    return Coverage.of(APPROACH, rows)
-
-
-def test_the_interval_is_that_of_clopper_and_pearson() -> None:
-    assert Share(95, 100).interval == pytest.approx((0.88717, 0.98357), abs=1e-5)
-    assert Share(10, 10).interval == pytest.approx((0.69150, 1.0), abs=1e-5)
-    assert Share(0, 10).interval == pytest.approx((0.0, 0.30850), abs=1e-5)
 
 
 MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
@@ -83,21 +71,9 @@ def test_each_number_is_counted_once(name: str) -> None:
         Share(int(share in inside), int(share in counted))
         for share in ("covered", "tight", "wide", "apart", "false_marks")
     )
-    assert coverage([one]) == Coverage(APPROACH, *shares, int("undecided" in inside), 0)
-
-
-def test_numbers_with_a_reference_are_counted_apart() -> None:
-    """Of the 200 numbers, the errors of 100 have a part by the tolerance."""
-    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 1e-9))
-    parts: list[Mapping[Any, float]] = [{"cells": 1e-3}, {"cells": 1e-3, "tolerance": 1e-4}]
-    rows = [
-        coverage_row(truth, 2 + wrong, StatedError(error=1e-3, parts=one, status="estimated"))
-        for one, wrong in zip(parts, (1e-3, 2e-3), strict=True)
-    ] * 100
-    statements = conclude(SETTINGS, records(rows)).statements
-    (apart,) = (one for one in statements if one.claim.startswith("numbers by coarse solves"))
-    assert apart.about.counters["numbers"] == 100
-    assert apart.about.measures["covered"] == 0
+    assert Coverage.of(APPROACH, [one]) == Coverage(
+        APPROACH, *shares, int("undecided" in inside), 0
+    )
 
 
 def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, CaseRecord]:
@@ -109,31 +85,6 @@ def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, C
         outcome = {"outcome": "met" if ratio else "stopped"}
         made[case.name] = CaseRecord(measures={ASKED: 1e-2, TRUE: 1e-2 * ratio}, words=outcome)
     return made
-
-
-@pytest.mark.parametrize(
-    ("rows", "covered", "width"),
-    [
-        ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS, Status.PASS),
-        ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE, Status.INCONCLUSIVE),
-        ([row(1e-3, 2e-3)] * 90 + [row(1e-3, 5e-4)] * 10, Status.FAIL, Status.PASS),
-        ([row(1e-3, 2e-3)] * 74 + [row(1e-3, 2e-2)] * 26, Status.PASS, Status.FAIL),
-        ([row(1e-3, 2e-3)] * 91 + [row(1e-3, 4e-2)] * 9, Status.PASS, Status.FAIL),
-        ([row(1e-3, 2e-3)] * ENOUGH + [MARKED] * 3, Status.PASS, Status.FAIL),
-    ],
-    ids=["good", "too few", "too small", "too large", "far too large", "falsely marked"],
-)
-def test_all_numbers_kinds_and_families_are_judged(
-    rows: list[Row], covered: Status, width: Status
-) -> None:
-    found = conclude(SETTINGS, records(rows)).statements
-    assert found
-    expected_of = {"all numbers: tight": width} | dict.fromkeys(
-        ("all numbers: covered", "approach", "family balls"), covered
-    )
-    for claim, expected in expected_of.items():
-        (statement,) = (s for s in found if s.claim.startswith(claim))
-        assert statement.outcome is expected
 
 
 @pytest.mark.parametrize(

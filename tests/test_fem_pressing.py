@@ -27,7 +27,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.quantities.summary import ContactStatus
-from fem_reference import Increment, Method, Path, Result, plan, solve
+from fem_reference import Method, Path, Result, plan, solve
 from fem_reference.expected_radius import expected_radius
 
 SMOOTH = scene(PRESS, friction=None)
@@ -90,14 +90,10 @@ def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
     return solve(asked, elements(per_radius, **more), method=Method.PENALTY)
 
 
-def penalised_state(asked: Scene, per_radius: int = 16, **more) -> Increment:
-    return penalised(asked, per_radius, **more).increments[-1]
-
-
 def test_overlap_is_reported() -> None:
     """Springs alone overlap by p0/ε; augmentation leaves a small part of it."""
     asked = scene(PRESS, friction=None)
-    springs, augmented = (penalised_state(asked, augmentations=n) for n in (0, 1))
+    springs, augmented = (penalised(asked, augmentations=n).increments[-1] for n in (0, 1))
     modulus = steel().plane_strain_modulus / 2
     stiffness = 10.0 * modulus * 16 / A
     assert springs.overlap == pytest.approx(springs.peak_pressure / stiffness, rel=1e-2)

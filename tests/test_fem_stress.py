@@ -60,8 +60,7 @@ def test_the_stress_on_the_axis_of_a_flat_punch_is_that_of_its_force(solver: Any
     assert axis.stress[2, deep] == pytest.approx(exact, rel=0.02)
 
 
-@pytest.mark.parametrize("solver", ["fem", "fem-complementarity"])
-def test_stress_below_a_contact_with_a_hole_has_no_pressure_there(solver: Any) -> None:
+def test_stress_below_a_contact_with_a_hole_has_no_pressure_there() -> None:
     """A flat tip on a stiff film of a soft body bears on a ring."""
     r = np.linspace(0.0, 2.5 * A, 401)
     tip = RevolvedProfile(file=np.stack([r, 3e-3 * A * (r / A) ** 6], axis=1), material=RIGID)
@@ -75,11 +74,12 @@ def test_stress_below_a_contact_with_a_hole_has_no_pressure_there(solver: Any) -
     names = ["max_principal@layer 1", "von_mises@layer 1", "von_mises@base"]
     cells = slipstick.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=(96, 96)))
     exact = largest_stresses(cells, None, names)
-    found = largest_stresses(slipstick.solve(posed, solver, elements(32)), None, names)
     assert cells.steps[-1].pressure[48, 48] == 0.0
-    assert {name: value for name, (value, _) in found.items()} == {
-        name: pytest.approx(value, rel=0.02) for name, (value, _) in exact.items()
-    }
+    for solver in ("fem", "fem-complementarity"):
+        result: Any = slipstick.solve(posed, solver, elements(32))
+        found = largest_stresses(result, None, names)
+        for name, (value, _) in exact.items():
+            assert found[name][0] == pytest.approx(value, rel=0.02), name
 
 
 @pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])

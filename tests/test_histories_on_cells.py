@@ -25,16 +25,12 @@ def solved(*loading, cells=CELLS, **more):
     return solve(scene(*loading, **more), grid(cells), TOLERANCE)
 
 
-def mapped(values):
-    return {"map": values, "spacing": SPACING}
-
-
 # A map that varies, if only in its last digits: what it carries is known once it is solved.
 NEARLY_ONE = 1 + 1e-12 * np.add.outer(np.arange(CELLS), np.arange(CELLS))
 
 
 def test_a_history_cannot_go_on_from_the_limit():
-    friction = mapped(MU * NEARLY_ONE)
+    friction = {"map": MU * NEARLY_ONE, "spacing": SPACING}
     pressed = solve(scene(PRESS, push(0.5), friction=friction), grid(CELLS), TOLERANCE).steps[0]
     limit = MU * float(np.sum(pressed.pressure * NEARLY_ONE)) * grid(CELLS).cell_area
     with pytest.raises(GrossSliding, match="shift or twist is undefined"):

@@ -1,12 +1,9 @@
-"""Tests of single increments: counted products, one cell in contact, and the contact fraction."""
+"""Tests of single increments: one cell in contact, and the contact fraction."""
 
 import numpy as np
 import pytest
 from contact_scenes import (
-    PRESS,
     grid,
-    push,
-    scene,
 )
 from coupled_scenes import press
 from coupled_scenes import scene as coupled_scene
@@ -15,23 +12,8 @@ from contact_scene.quantities.summary import ContactStatus
 from fem_reference.contact.increment import touching_share as share_of_rings
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.increments.tangential_state import touching_share
-from semi_analytical.operator.operator import DisplacementOperator
 
 TOLERANCE = 1e-8
-
-
-def test_products_are_counted_and_a_constant_load_needs_none_of_pressure(monkeypatch):
-    """One convolution for the normal displacement, and two for the tangential one."""
-    made = []
-
-    def counted(name, plain):
-        return lambda self, field: made.append(name) or plain(self, field)
-
-    for name in ("normal", "tangential"):
-        plain = getattr(DisplacementOperator, name)
-        monkeypatch.setattr(DisplacementOperator, name, counted(name, plain))
-    pressed, pushed = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE).increments
-    assert made == ["normal"] * pressed.convolutions + ["tangential"] * (pushed.convolutions // 2)
 
 
 def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():

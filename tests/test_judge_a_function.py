@@ -6,7 +6,6 @@ import signal
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 from command import slipstick
@@ -15,14 +14,8 @@ from processes import begun, ended, has_ended
 from contact_results.directory.atomic_file import Refused
 from verification import Answer, SolverFailed
 from verification import judge as judge_function
-from verification.challenge.answer import Key
-from verification.challenge.python_api import Judgement, posed
-from verification.challenge.saved_judgements import (
-    judgement_changes,
-    read_judgements,
-    save_judgement,
-)
-from verification.challenge.solver_process import Posed, named_solver
+from verification.challenge.python_api import posed
+from verification.challenge.solver_process import named_solver
 from verification.problems.problem import HERTZ
 
 # A solver function that imports the problem would import all solvers, in each child process.
@@ -31,89 +24,10 @@ APPROACH = {HERTZ.approach!r}
 RADIUS = {HERTZ.contact_radius!r}
 PEAK = {HERTZ.peak_pressure!r}
 """
-FILE = (
-    CONSTANTS
-    + """
-from verification import Answer
-
-def right(problem, level):
-    values = {("approach", 1): APPROACH, ("contact_radius", 1): RADIUS}
-    return Answer(1e-5, values)
-"""
-)
 
 
 def judge(*arguments: object) -> int:
     return slipstick("judge", *arguments)
-
-
-# A solver, its changes since its judgement was saved, and the worst change with its text.
-SAVED: dict[str, Any] = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
-LATER = [
-    ({}, None, ""),
-    ({"error": 1.2 * 8e-4}, "drift", "error 0.00096, was error 0.0008 at saved.json"),
-    ({"error": -1.2 * 8e-4}, "drift", ""),
-    ({"error": 1.6 * 8e-4}, "worse", "hertz_point/approach [step 1]: error 0.00128"),
-    ({"error": 8e-3}, "worse", "error 0.008"),
-    ({"error": 1.6e-2}, "outside", "pass -> fail"),
-    ({"error": 1e-4}, "better", ""),
-    ({"unknowns": 104}, None, ""),
-    ({"unknowns": 106}, "dearer", "unknowns [all levels]: 106, was 100"),
-    ({"unknowns": 50}, "drift", "unknowns"),
-    ({"claim": 1e-1}, "worse", "pass -> inconclusive"),
-    ({"claim": 0}, "gone", "own uncertainty"),
-    ({"levels": 2}, None, ""),
-]
-
-
-def judged_solver(
-    error: float, claim: float, unknowns: int, levels: int = 1, grade: str = "C"
-) -> Judgement:
-    def solve(problem: Posed, level: int) -> Answer:
-        radius = HERTZ.contact_radius
-        values: dict[Key, float | tuple[float, float]] = {
-            ("approach", 1): HERTZ.approach * (1 + error / 1.1**level),
-            ("contact_radius", 1): (radius, claim * radius) if claim else radius,
-        }
-        return Answer(1e-5 / 2**level, values, unknowns=unknowns * (level == 0))
-
-    return judge_function("hertz_point", solve, levels, grade, seconds=None)
-
-
-@pytest.mark.parametrize(("change", "kind", "said"), LATER)
-def test_a_solver_is_held_to_its_saved_judgement(
-    tmp_path: Path, change: dict[str, Any], kind: str | None, said: str
-) -> None:
-    path = tmp_path / "saved.json"
-    save_judgement(judged_solver(**SAVED), path)
-    rows = judgement_changes("hertz_point", judged_solver(**(SAVED | change)), path)
-    assert [row.kind for row in rows[:1]] == [kind] * (kind is not None)
-    assert said in "".join(row.line for row in rows[:1])
-
-
-def test_a_saved_judgement_stays_beside_that_of_another_case(tmp_path: Path) -> None:
-    path = tmp_path / "saved.json"
-    save_judgement(judged_solver(**SAVED), path)
-    path.write_text(path.read_text().replace("hertz_point", "another_case"))
-    save_judgement(judged_solver(**SAVED), path)
-    assert list(read_judgements(path).cases) == ["another_case", "hertz_point"]
-
-
-def test_a_file_imports_what_lies_beside_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "path", list(sys.path))
-    (tmp_path / "kernel_of_a_stranger.py").write_text(FILE)
-    beside, lost = tmp_path / "beside.py", tmp_path / "lost.py"
-    beside.write_text("from kernel_of_a_stranger import right\n")
-    lost.write_text("from no_such_kernel import right\n")
-    asked = ("--case", "hertz_point", "--levels", "1")
-    assert judge(f"{beside}:right", *asked) == 0
-    assert judge(f"{lost}:right", *asked) == 2
-    assert (
-        f"{lost.name}: ModuleNotFoundError: No module named 'no_such_kernel'"
-        in capsys.readouterr().err
-    )
 
 
 # ---- functions that leave, hang or change what they are given -----------------------------------
@@ -232,7 +146,6 @@ FAILED = {
     "killed": "level 0: SIGKILL, which the system sends for lack of memory",
     "is_ended": "level 0: SIGXCPU",
     "has_no_memory": "MemoryError: grid",
-    "is_endless": "gave no answer on level 0 within 1 s",
     "waits_for_its_child": "gave no answer on level 0 within 1 s",
     "leaves_its_child": "ended without an answer on level 0: exit code 0",
     "cannot_be_sent": "raised an exception on level 0:.*pickle",

@@ -16,16 +16,16 @@ from verification.problems.problem import HERTZ
 
 ACTION = Path(__file__).resolve().parents[1] / ".github" / "actions" / "judge"
 SLIPSTICK = Path(sys.executable).with_name("slipstick")
-FILE = """
+# A function that imports the problem would import all solvers, in its own process.
+FILE = f"""
 from verification import Answer
-from verification.problems.problem import HERTZ
+APPROACH, RADIUS = {HERTZ.approach!r}, {HERTZ.contact_radius!r}
 
 def right(problem, level):
-    values = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}
-    return Answer(1e-5, values)
+    return Answer(1e-5, {{("approach", 1): APPROACH, ("contact_radius", 1): RADIUS}})
 
 def off(problem, level):
-    return Answer(1e-5, {("approach", 1): 1.05 * HERTZ.approach})
+    return Answer(1e-5, {{("approach", 1): 1.05 * APPROACH}})
 """
 
 

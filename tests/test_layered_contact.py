@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_scenes import INDENTERS, MU, PRESS, A, push, scene, steel
+from contact_scenes import INDENTERS, PRESS, A, push, scene, steel
 from coupled_scenes import coated
 from coupled_scenes import scene as coupled_scene
 
@@ -56,18 +56,15 @@ def test_window_holds_the_largest_contact_of_the_history():
     assert windows[0] == windows[1] == windows[2]
 
 
-def map_of(shape, length, values=MU):
-    return {"map": np.full(shape, values), "spacing": tuple(length / np.array(shape))}
-
-
 @pytest.mark.parametrize("shape", [(40, 24), (300, 24), (512, 300)])
 @pytest.mark.parametrize("window", [2.2 * A, 3 * A])
 def test_chosen_cells_divide_the_spacing_of_a_map_by_the_same_number(shape, window):
     values = np.add.outer(np.arange(shape[0]), np.arange(shape[1])) * 1e-9
     rough = HeightMap(file=values, spacing=tuple(4 * A / np.array(shape)), material=steel())
     asked = SurfaceDiscretisation(window=(window, window))
+    friction = {"map": np.full(shape, values), "spacing": tuple(4 * A / np.array(shape))}
     for described in (
-        scene(PRESS, push(0.2), friction=map_of(shape, 4 * A, values)),
+        scene(PRESS, push(0.2), friction=friction),
         scene(PRESS, friction=None, indenter=rough),
     ):
         cells = np.array(discretise(described, asked).cells)

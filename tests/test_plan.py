@@ -4,14 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import INDENTERS, PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
+from contact_scenes import INDENTERS, PRESS, RIGID_BALL, paraboloid, push, scene, slide
 from coupled_scenes import bulk, coated
 from coupled_scenes import scene as coupled_scene
 
 import fem_reference
 import radial
-from contact_scene import Body, Layer
-from contact_scene.body_pair import contact_modulus, outermost_beta
 from contact_scene.stepping.load_stepping import fractions
 from semi_analytical import Coupling, all_effects, plan
 from semi_analytical.operator.domain import WINDOW
@@ -57,45 +55,24 @@ def test_increments_follow_small_loads_by_the_contact_radius(least, shape, order
         assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
 
 
-def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
-    film, inner = steel(0.2, 3e11), steel(0.45, 3e10)
-    layers = tuple(Layer(thickness=1e-3, material=one) for one in (film, inner))
-    bare, alone, layered = (
-        scene(PRESS, indenter=RIGID_BALL).model_copy(update={"body": body})
-        for body in (
-            Body(material=steel()),
-            Body(material=film),
-            Body(material=steel(), layers=layers),
-        )
-    )
-    for of in (contact_modulus, outermost_beta):
-        assert of(layered) == of(alone) != of(bare)
-
-
-DEFAULT = 1e-2
-
-
-def counts(described, accuracy=DEFAULT):
-    return plan(described, accuracy).increments
-
-
-def free(x, y=0.0, friction=0.1, **more):
+def free(x):
     """A push in parts of the friction limit that leaves its increments to the solver."""
-    limit = friction * PRESS["normal_force"]
-    return {"tangential_force": (x * limit, y * limit), **more}
+    return {"tangential_force": (x * 0.1 * PRESS["normal_force"], 0.0)}
 
 
-WEAK = coupled_scene(PRESS, body=bulk(0.3))
-STRONG = coupled_scene(PRESS, body=bulk(0.3), friction=0.3)
-PUSHED = coupled_scene(PRESS, free(0.6), body=bulk(0.3))
-COATED = coupled_scene(PRESS, free(0.9), body=coated(2.0))
-TURNING = scene(PRESS, push(0.5), push(0, 0.5))
-OBLIQUE = scene({**PRESS, **slide(0.3)})
-
-
-@pytest.mark.parametrize("described", [WEAK, STRONG, PUSHED, COATED, TURNING, OBLIQUE])
+@pytest.mark.parametrize(
+    "described",
+    [
+        coupled_scene(PRESS, body=bulk(0.3)),
+        coupled_scene(PRESS, body=bulk(0.3), friction=0.3),
+        coupled_scene(PRESS, free(0.6), body=bulk(0.3)),
+        coupled_scene(PRESS, free(0.9), body=coated(2.0)),
+        scene(PRESS, push(0.5), push(0, 0.5)),
+        scene({**PRESS, **slide(0.3)}),
+    ],
+)
 def test_more_accuracy_takes_more_increments(described):
-    fine, coarse = counts(described, 1e-3), counts(described, 1e-1)
+    fine, coarse = (plan(described, accuracy).increments for accuracy in (1e-3, 1e-1))
     assert all(f >= c for f, c in zip(fine, coarse, strict=True))
     assert sum(fine) > sum(coarse)
 

@@ -41,10 +41,6 @@ from contact_scene.reading.units import (
 from slipstick import LoadStep, Paraboloid
 
 
-def value_of(kind: Any, written: Any) -> float:
-    return TypeAdapter(kind).validate_python(written)
-
-
 @pytest.mark.parametrize(
     ("kind", "written", "expected"),
     [
@@ -67,7 +63,7 @@ def value_of(kind: Any, written: Any) -> float:
 def test_a_text_with_a_unit_is_the_literal_in_si_to_the_last_bit(
     kind: Any, written: Any, expected: float
 ) -> None:
-    assert value_of(kind, written) == expected
+    assert TypeAdapter(kind).validate_python(written) == expected
 
 
 @pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE])

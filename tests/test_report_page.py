@@ -1,11 +1,10 @@
-"""Tests of the report page: cases by physics, claims, the table of validity, units and size."""
+"""Tests of the report page: cases by physics, claims, units and size."""
 
 import ast
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import pytest
 from report_examples import (
     case,
     chart,
@@ -25,7 +24,6 @@ from verification.judging.outcome import (
 from verification.report.file_names import SHEETS
 from verification.report.page import MAX_CHARTS, cases_by_physics, render_page, render_sheets
 from verification.report.summary_text import claims_line, features, power_text
-from verification.report.validity import validity_table
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -116,55 +114,3 @@ def test_a_quick_page_stays_small() -> None:
     full = render_page(report.model_copy(update={"level": "full"}))
     assert full.count("<svg") == 14
     assert full.count("1e-9") == 300
-
-
-# ---- table of validity
-
-
-def judged_at(
-    name: str, values: dict[str, tuple[float, float]], parameters: dict[str, tuple[float, ...]]
-) -> CaseOutcome:
-    run = run_record(64, None).model_copy(update={"parameters": parameters})
-    return case(name, values, run, drawn=False)
-
-
-@pytest.fixture
-def cases() -> tuple[CaseOutcome, ...]:
-    """Errors of 1e-3, 4e-3 and 9e-3 with a tolerance of 1 %; the last run has no parameters."""
-    soft = judged_at("soft", {"radius": (1.001, 1.0)}, {"ν": (0.3,), "µ": (0.05,)})
-    thin = judged_at(
-        "thin", {"radius": (1.004, 1.0), "peak": (1.0, 1.0)}, {"ν": (0.3, 0.45), "µ": (0.1,)}
-    )
-    old = judged_at("old", {"radius": (1.009, 1.0)}, {})
-    return soft, thin, old
-
-
-def test_a_row_has_the_tested_range_and_the_largest_error_in_it(
-    cases: tuple[CaseOutcome, ...],
-) -> None:
-    table = validity_table(report_of(cases))
-    assert table.rows == (
-        ("ν", "0.3", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
-        ("ν", "0.45", "1", "0.004", "thin/radius", "40 %", "thin/radius"),
-        ("µ", "0.05 to 0.1", "2", "0.004", "thin/radius", "40 %", "thin/radius"),
-    )
-    assert "Validity" in render_page(report_of(cases))
-
-
-def test_errors_to_the_same_program_count_for_the_tolerance_only(
-    cases: tuple[CaseOutcome, ...],
-) -> None:
-    """A refinement of the same solver is no reference from outside; an order is no number."""
-    soft, thin, _ = cases
-    own = [one.model_copy(update={"reference_kind": "own refinement"}) for one in thin.verdicts]
-    orders = [one.model_copy(update={"tolerance_kind": "order"}) for one in thin.verdicts]
-
-    def row(verdicts: object) -> tuple[str, ...]:
-        changed = thin.model_copy(update={"verdicts": verdicts})
-        rows = validity_table(report_of((soft, changed))).rows
-        return next(row for row in rows if row[0] == "µ")
-
-    assert row(own) == ("µ", "0.05 to 0.1", "2", "0.001", "soft/radius", "40 %", "thin/radius")
-    assert row(orders) == ("µ", "0.05", "1", "0.001", "soft/radius", "10 %", "soft/radius")
-    alone = thin.model_copy(update={"verdicts": tuple(own)})
-    assert validity_table(report_of((alone,))).rows[0][3:5] == ("–", "no reference from outside")

@@ -3,7 +3,6 @@
 import copy
 import gc
 import math
-import os
 import time
 from pathlib import Path
 from typing import Any
@@ -14,49 +13,6 @@ from hypothesis import strategies as st
 from strategies import Document, as_toml, documents
 
 from contact_scene import SceneError, SceneFile, read_scene_file
-
-SOON = 1.0  # seconds of CPU, however large the file
-
-
-@pytest.mark.parametrize(
-    ("contents", "line", "words"),
-    [
-        (b"\xef\xbb\xbf", None, "is empty"),
-        (b"title = 'x'\n\xff\xfe", 2, "UTF-8"),
-        (b"PK\x03\x04\x00", 1, "not valid TOML"),
-        (b"[loading]\na = 1\n[loading]\na = 2", 3, "with double brackets, for each entry"),
-        (b"a = " + b"9" * 5000, 1, "not valid TOML"),
-        (b"\na = " + b"[" * 2000 + b"]" * 2000, 2, "nested too deep"),
-        (b"a." * 2000 + b"b = 1", 1, "nested too deep"),
-        (b"a = " + b"{b = " * 2000, 1, "nested too deep"),
-        (b"a = [" + b"1," * 800_000 + b"]", None, "too many keys"),
-    ],
-    ids=lambda value: repr(value)[:20],
-)
-def test_what_is_no_toml_is_refused_with_its_line(
-    tmp_path: Path, contents: bytes, line: int | None, words: str
-) -> None:
-    file = tmp_path / "scene.toml"
-    file.write_bytes(contents)
-    started = time.process_time()
-    with pytest.raises(SceneError) as caught:
-        read_scene_file(file)
-    (problem,) = caught.value.problems
-    assert time.process_time() - started < SOON
-    assert problem.line == line
-    assert words in str(problem)
-
-
-def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    names = {".": "is a folder", "none.toml": "no such file", "pipe": "not a regular file"}
-    names |= {"x" * 300: "cannot be read", "a\0b": "no such file"}
-    assert len(names) == 5
-    for name, words in names.items():
-        with pytest.raises(SceneError, match=words) as caught:
-            read_scene_file(tmp_path / name)
-        assert str(caught.value).isprintable()
-
 
 # ---- random files
 

@@ -28,6 +28,8 @@ FAST_RUNS = [
 ]
 # A quicker defect is caught by the same law.
 SLOW = (
+    "approach-taken-over",
+    "force-scaled",
     "force-taken-over",
     "increments-halved",
     "one-increment",

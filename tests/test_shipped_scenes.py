@@ -1,6 +1,7 @@
 """Tests of the numbers and stated errors of shipped scenes and gallery: none becomes worse.
 
-They are those that users see. `python tests/test_shipped_scenes.py` saves them anew.
+They are those that users see; the longest two have fewer cells.
+`python tests/test_shipped_scenes.py` saves them anew.
 """
 
 import tempfile
@@ -12,12 +13,15 @@ from command import slipstick
 ROOT = Path(__file__).parents[1]
 SCENES = sorted((*ROOT.glob("scenes/*.toml"), *ROOT.glob("docs/gallery/*.toml")))
 EXPECTED = Path(__file__).parent / "expected"
+FEWER_CELLS = {"fretting_loop": 64, "torsion": 32}
 
 
 def run(scene: Path, option: str, output: Path) -> int:
     """Run a scene with `--expect` or `--save-expected`; return the exit code."""
-    file = EXPECTED / f"{scene.stem}.json"
-    return slipstick("run", scene, "--output", output, "--figures", "none", option, file)
+    given: tuple[object, ...] = ("--figures", "none", option, EXPECTED / f"{scene.stem}.json")
+    if cells := FEWER_CELLS.get(scene.stem):
+        given += ("--set", f"semi_analytical.cells=[{cells}, {cells}]")
+    return slipstick("run", scene, "--output", output, *given)
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=[scene.stem for scene in SCENES])

@@ -11,7 +11,6 @@ from contact_scene.solver_errors import GrossSliding, ResourceRefused, Unsupport
 from semi_analytical import NotConverged
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.study import CaseRecord
 from verification.studies.stability import contacts, study
 from verification.studies.stability.contacts import (
     CellRecord,
@@ -93,31 +92,9 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
     assert "NotConverged" in record.reason
 
 
-def test_a_record_comes_back_from_its_row() -> None:
-    bad = CellRecord(verdict=Verdict.REFUSED, reason="GrossSliding: …", tolerance=1e-8)
-    for record in (GOOD, bad):
-        row = CaseRecord.model_validate_json(record.of_cell(ORDINARY).model_dump_json())
-        assert CellRecord.of(row) == record
-        assert row.parameters["surface"] == "ball"
-
-
-def refusal(kind: Refusal) -> CellRecord:
-    return GOOD.model_copy(
-        update={"verdict": Verdict.REFUSED, "refused_for": kind, "reason": "SomeError: too much"}
-    )
-
-
 @pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
 def test_one_cell_in_a_hundred_may_give_up(share: int, outcome: Status) -> None:
     cells = [replace(ORDINARY, friction=0.001 * n) for n in range(100)]
     given_up = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
     found = dict.fromkeys(cells, GOOD) | dict.fromkeys(cells[:share], given_up)
     assert study.nearly_everything_converges(found).outcome is outcome
-
-
-def test_a_refusal_for_another_reason_is_not_due() -> None:
-    beyond = replace(ORDINARY, push=1.001)
-    for kind in Refusal:
-        outcome = Status.PASS if kind is Refusal.FORCE else Status.FAIL
-        assert study.refusals_are_due({beyond: refusal(kind)}).outcome is outcome
-        assert study.refusals_are_due({ORDINARY: refusal(kind)}).outcome is Status.FAIL

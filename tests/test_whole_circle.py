@@ -9,7 +9,7 @@ from contact_scenes import PRESS, RADIUS, RIGID_BALL, A, push, scene, steel
 from fem_scenes import elements, solved
 
 import radial
-from contact_scene import Body, Layer, RadialDiscretisation, Scene
+from contact_scene import Body, Layer, RadialDiscretisation
 from contact_scene.rig import Rig
 from fem_reference import Result
 from fem_reference.stress import SurfaceTractions, subsurface
@@ -21,13 +21,10 @@ COATED = Body(material=steel(), layers=(Layer(thickness=A, material=steel(0.3, 1
 TURNED = (push(0.5, increments=4), push(0.5 / 2**0.5, 0.5 / 2**0.5, increments=4))
 
 
-def coated(*loading) -> Scene:
-    return scene(*loading, indenter=RIGID_BALL).model_copy(update={"body": COATED})
-
-
 @cache
 def example() -> Result:
-    return solved(coated({**PRESS, "increments": 1}, *TURNED), 6, harmonics=3)
+    ball = scene({**PRESS, "increments": 1}, *TURNED, indenter=RIGID_BALL)
+    return solved(ball.model_copy(update={"body": COATED}), 6, harmonics=3)
 
 
 def test_springs_of_a_rig_act_along_and_across_the_load():
