@@ -444,12 +444,12 @@ class SolvedRun:
                 found.setdefault(comparison.part, []).append(
                     (comparison.fits_edge(step, name, order), size)
                 )
-        largest = features.largest.get(name, np.inf)
+        bounds = features.least.get(name, 0.0), features.largest.get(name, np.inf)
         parts = {}
         for part, solves in found.items():
             sizes = [size for alike, size in solves if alike] or [size for _, size in solves]
             if part in BY_SPREAD and not regular:
-                parts[part] = np.minimum(np.sqrt(np.mean(np.square(sizes), axis=0)), largest)
+                parts[part] = np.clip(np.sqrt(np.mean(np.square(sizes), axis=0)), *bounds)
             else:
                 parts[part] = np.max(sizes, axis=0)
         return parts

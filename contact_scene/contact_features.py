@@ -82,6 +82,8 @@ class Features:
                   correction (subcell pressure at the contact edge) stops
     largest       largest errors of scalars, by name, that elements can cause: the edge of the
                   contact lies within an element [unit of the scalar]
+    least         least errors of scalars, by name, that rings cause: coarse solves with a ring at
+                  the same edge of the contact show none [unit of the scalar]
     """
 
     contact: float
@@ -100,6 +102,7 @@ class Features:
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)
     largest: Mapping[str, float] = field(default_factory=dict)
+    least: Mapping[str, float] = field(default_factory=dict)
 
     def convergence_order(self, name: str) -> float:
         """Return the theoretical convergence order p of a scalar in the cell size h: error ~ h^p.

@@ -37,6 +37,8 @@ from radial.tangential.ring_state import (
     resultant_loads,
 )
 
+# Relative distance from the friction limit within which a load counts as gross slip.
+SLIDING = 1e-6
 REST = 1e-11  # slip below this multiple of the approach is round-off
 
 
@@ -62,6 +64,7 @@ class TangentialState:
     dissipated     energy dissipated since the start of the history [force length]; None after an
                    increment at the friction limit under force control, where the shift is undefined
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
+    slides         true if the tangential load reaches the friction limit
     """
 
     end: PointState
@@ -75,6 +78,7 @@ class TangentialState:
     carried: Array
     dissipated: float | None
     uncertainty: float
+    slides: bool
 
     @property
     def forces(self) -> tuple[float, ...]:
@@ -99,8 +103,8 @@ class TangentialState:
         """Contact status: full stick, partial slip, gross slip, or no stick area left.
 
         If points slip and the rings do not resolve the stick zone, the status is partial slip. If
-        all points slip, the status is gross slip at the friction limit and under a prescribed shift
-        or twist, otherwise no stick area left.
+        all points slip, the status is gross slip at the friction limit, otherwise no stick area
+        left: a stick zone may be hidden within a ring.
         """
         if self.end.slides:
             return ContactStatus.GROSS_SLIDING
@@ -109,8 +113,7 @@ class TangentialState:
             return ContactStatus.FULL_STICK
         if np.any(share <= 1) or self.stick_radius is None or self.stick_radius > 0:
             return ContactStatus.PARTIAL_SLIP
-        slides = any(motion is not None for motion in self.prescribed.motions[:NORMAL])
-        return ContactStatus.GROSS_SLIDING if slides else ContactStatus.NO_STICK_AREA_LEFT
+        return ContactStatus.GROSS_SLIDING if self.slides else ContactStatus.NO_STICK_AREA_LEFT
 
 
 def _prescribed_or_computed(
@@ -191,7 +194,20 @@ def tangential_state(
         forces,
         dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
+        end.slides or _reaches_limit(points, end.motion - motion, forces, limits[1]),
     )
+
+
+def _reaches_limit(points: ContactPoints, moved: Array, forces: Array, limit: Array) -> bool:
+    """Return true if the tangential loads do as much work as friction at its limit.
+
+    moved   rigid motion of the increment (4,)
+    forces  resultants of the tractions, conjugate to the motions (4,)
+    limit   friction limit µp at the points (N,) [force/length²]
+    """
+    everywhere = (moved[:NORMAL] @ points.rigid_motions).reshape(2, -1)
+    work, power = moved[:NORMAL] @ forces[:NORMAL], limit @ np.hypot(*everywhere)
+    return bool(power > 0 and work >= power * (1 - SLIDING))
 
 
 def residuals_of(
