@@ -101,6 +101,7 @@ NARROWEST = 0.1
 LOST = frozenset({"dissipated_energy", *OF_CYCLES})
 # Sizes of the stick zone, with the power of a length.
 STICK_SIZES: Mapping[str, float] = MappingProxyType({"stick_radius": 1.0, "stick_area": 2.0})
+STICK_CENTRE = "stick_centre"
 # Name of the shear traction among the scalars of solves with different increments.
 SHEAR = "shear"
 # Reason why an error is not converged.
@@ -349,6 +350,10 @@ class SolvedRun:
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
             # Zero at every fineness: its cause is absent, or too small for a cell.
             hidden = name in AT_EDGES or (self._hides_slip[step] and name in LOST)
+            if name == STICK_CENTRE:
+                hidden = self._is_lopsided[step] and (
+                    features.annulus is not None or self._hides_slip[step]
+                )
             return unknown_error(HIDDEN) if hidden else EXACT
         if name in STICK_SIZES and features.stick and self._hides_slip[step]:
             one_cell = STICK_SIZES[name] / features.stick * np.abs(value)
@@ -395,6 +400,21 @@ class SolvedRun:
             narrow = features.annulus is None or features.annulus < NARROWEST
             slips = smooth or at_rim * features.contact > NARROWEST
             found.append(slips and shears and bool(features.stick) and narrow)
+        return found
+
+    @cached_property
+    def _is_lopsided(self) -> Sequence[bool]:
+        """True for load steps at whose end the stick zone is not in the middle of the contact.
+
+        A tangential load moves it away if bodies are coupled or strained. Its centre is then at 0
+        only if all cells stick, or slip on both sides.
+        """
+        scene, pushes, strains, found = self.scene, False, False, []
+        coupled = scene.friction is not None and coupling(scene)[0]
+        for ramp in scene.load_path():
+            pushes = pushes or any(ramp.tangential.end)
+            strains = strains or ramp.strains
+            found.append(pushes and bool(coupled or strains))
         return found
 
     @cached_property

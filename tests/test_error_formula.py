@@ -67,6 +67,22 @@ def errors_of_one(comparisons: list[Comparison], features: Features) -> StatedEr
     return stated(scene(PRESS), approach(2.0), comparisons, features)[0]["approach"]
 
 
+@pytest.mark.parametrize(
+    ("indenter", "annulus", "status"),
+    [
+        (paraboloid(), 0.3, "exact"),  # alike bodies: slip is symmetric
+        (paraboloid(RIGID), 0.3, "not converged"),  # narrower than the cells, which all stick
+        (paraboloid(RIGID), None, "not converged"),  # hidden: a smooth edge slips
+    ],
+)
+def test_a_stick_zone_with_a_centre_at_0_on_every_grid(indenter: Any, annulus: Any, status) -> None:
+    middle = [{"stick_centre": np.zeros(2), "stick_area": np.ones(1)}] * 2
+    features = Features(contact=10.0, stick=9.7, annulus=annulus)
+    same = Comparison("cells", middle, middle, [2.0, 2.0], [features] * 2)
+    asked = scene(PRESS, push(0.1), indenter=indenter)
+    assert stated(asked, middle, [same], features, features)[1]["stick_centre"].status == status
+
+
 def test_the_annulus_of_pressing_is_nearly_that_of_spence() -> None:
     """It decides if slip at a rim may hide: its order of magnitude counts."""
     row = load_reference("frictional_indentation_homogeneous")["rows"][1]
