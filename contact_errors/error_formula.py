@@ -369,7 +369,10 @@ class SolvedRun:
         finest = min(
             (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD), default=1.0
         )
-        reason = features.unresolved(name, min(1.0, finest)) or (None if small else TOO_LARGE)
+        first = self._start_of_pressure[step] if name == PEAK else step
+        since = self.features[first : step + 1]
+        reasons = (state.unresolved(name, min(1.0, finest)) for state in since)
+        reason = next(filter(None, reasons), None if small else TOO_LARGE)
         return build_stated_error(parts, reason)
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
@@ -415,6 +418,18 @@ class SolvedRun:
             pushes = pushes or any(ramp.tangential.end)
             strains = strains or ramp.strains
             found.append(pushes and bool(coupled or strains))
+        return found
+
+    @cached_property
+    def _start_of_pressure(self) -> Sequence[int]:
+        """Last load step, up to each load step, that changed the normal load.
+
+        Its stick zone made the cusp of the pressure, which stays while the normal load is constant.
+        """
+        found: list[int] = []
+        for step, ramp in enumerate(self.scene.load_path()):
+            constant = found and ramp.normal.start == ramp.normal.end
+            found.append(found[-1] if constant else step)
         return found
 
     @cached_property

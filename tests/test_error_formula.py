@@ -215,6 +215,17 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
 
 
+@pytest.mark.parametrize(
+    ("last", "status"), [(push(0.1), "not converged"), ({"normal_force": 2 * LOAD}, "estimated")]
+)
+def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last: dict, status: str) -> None:
+    small, large = (Features(contact=10.0, stick=stick, cusp=True) for stick in (0.5, 5.0))
+    peaks = [[{"peak_pressure": np.array([value])}] * 2 for value in (1.0, 1.1)]
+    levels = [Comparison("cells", *peaks, [2.0, 2.0])]
+    found = stated(scene(PRESS, last), peaks[0], levels, small, large)
+    assert [one["peak_pressure"].status for one in found] == ["not converged", status]
+
+
 @pytest.mark.parametrize("order", [1.0, 2.0])
 @pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
 @pytest.mark.parametrize("part", ["cells", "section"])
@@ -252,6 +263,9 @@ def test_components_of_a_vector_share_one_size() -> None:
     [
         ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
         ("approach", {"layer": 0.9}, False),
+        ("approach", {"layer": 1.9, "layer_at_edge": 2.0}, True),
+        ("contact_radius", {"layer": 1.9}, True),
+        ("contact_radius", {"layer": 1.9, "layer_at_edge": 2.0}, False),
         ("approach", {"wave": 3.9}, False),
         ("stick_radius", {"stick": 0.9}, False),
         ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
