@@ -41,6 +41,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 MAX_TICKS = 8
 FEW_TICKS = 6
 DECADE = 10.0
+EQUAL = 2.0  # ratio of times that differ by chance
 FEW_DECADES = 2.5  # with labels between powers of ten
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 
@@ -110,7 +111,7 @@ def _label_decades(ax: Any, most: int) -> None:
     """Print labels on the logarithmic axes of a panel at powers of ten.
 
     A short axis has labels also at 2 and 5 times the powers. The y axis spans a decade at least, so
-    that equal errors do not look different.
+    that equal errors do not look different, and so does an x axis of equal times.
 
     ax    axes of matplotlib
     most  largest number of labels per axis
@@ -118,10 +119,10 @@ def _label_decades(ax: Any, most: int) -> None:
     for axis in (ax.xaxis, ax.yaxis):
         if axis.get_scale() == "log":
             low, high = axis.get_view_interval()
-            if axis is ax.yaxis and high < DECADE * low:
+            if high < (DECADE if axis is ax.yaxis else EQUAL) * low:
                 middle = np.sqrt(low * high)
                 low, high = middle / np.sqrt(DECADE), middle * np.sqrt(DECADE)
-                ax.set_ylim(low, high)
+                axis.set_view_interval(low, high, ignore=True)
             parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
             axis.set_major_locator(LogLocator(subs=parts, numticks=most))
             axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
