@@ -41,7 +41,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 MAX_TICKS = 8
 FEW_TICKS = 6
 DECADE = 10.0
-EQUAL = 2.0  # ratio of times that differ by chance
+EQUAL = 1.4  # ratio of times that differ by chance; levels differ by √2 at least
 FEW_DECADES = 2.5  # with labels between powers of ten
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 
