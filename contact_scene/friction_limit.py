@@ -19,6 +19,10 @@ ROUND_OFF = 1e-12
 # like (1 - T/µW)^-½, here by 3e4, which exceeds the contact. A solver would determine it from a
 # difference of forces below the tolerance of equilibrium.
 AT_LIMIT = 1e-9
+# Relative distance from the friction limit within which a load counts as gross sliding if no point
+# sticks. The radius of a stick zone hidden between the points is 1 % of the contact radius (the
+# cube root), less than a cell, an element or a ring.
+SLIDING = 1e-6
 # Round-off of a number of increments.
 SHARE_ROUND_OFF = 1e-9
 

@@ -14,6 +14,7 @@ import numpy as np
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import SLIDING
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_solver.residuals import (
@@ -37,8 +38,6 @@ from radial.tangential.ring_state import (
     resultant_loads,
 )
 
-# Relative distance from the friction limit within which a load counts as gross slip.
-SLIDING = 1e-6
 REST = 1e-11  # slip below this multiple of the approach is round-off
 
 
