@@ -422,10 +422,7 @@ class SolvedRun:
 
     @cached_property
     def _start_of_pressure(self) -> Sequence[int]:
-        """Last load step, up to each load step, that changed the normal load.
-
-        Its stick zone made the cusp of the pressure, which stays while the normal load is constant.
-        """
+        """Last load step, up to each load step, that changed the normal load and so the cusp."""
         found: list[int] = []
         for step, ramp in enumerate(self.scene.load_path()):
             constant = found and ramp.normal.start == ramp.normal.end

@@ -200,11 +200,9 @@ class RingSolver(DiscretisedSolver):
 
 
 def _spread_between_rings(end: Increment) -> Mapping[str, float]:
-    """Return the spread of radius and area of a contact whose edge lies anywhere between two rings.
-
-    Pressure beyond the last ring in contact is 0, so that no coarse solve shows this spread if a
-    ring of each lies at the edge.
-    """
+    """Return the spread of radius and area of a contact whose edge lies between two rings."""
+    # The fit sets no edge beyond the first ring without pressure: solves with a ring at the same
+    # edge do not show this spread.
     at = min(int(np.searchsorted(end.radii, end.contact_radius, side="right")), len(end.radii) - 1)
     spread = UNIFORM_SPREAD * float(end.radii[at] - end.radii[at - 1])
     return {"contact_radius": spread, "contact_area": 2 * pi * end.contact_radius * spread}

@@ -198,12 +198,8 @@ def tangential_state(
 
 
 def _reaches_limit(points: ContactPoints, moved: Array, forces: Array, limit: Array) -> bool:
-    """Return true if the tangential loads do as much work as friction at its limit.
-
-    moved   rigid motion of the increment (4,)
-    forces  resultants of the tractions, conjugate to the motions (4,)
-    limit   friction limit µp at the points (N,) [force/length²]
-    """
+    """Return true if the resultants `forces` (4,) of the tractions do as much work on the rigid
+    motion `moved` (4,) of an increment as friction at its limit (N,)."""
     everywhere = (moved[:NORMAL] @ points.rigid_motions).reshape(2, -1)
     work, power = moved[:NORMAL] @ forces[:NORMAL], limit @ np.hypot(*everywhere)
     return bool(power > 0 and work >= power * (1 - SLIDING))
