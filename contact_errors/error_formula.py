@@ -101,6 +101,7 @@ NARROWEST = 0.1
 LOST = frozenset({"dissipated_energy", *OF_CYCLES})
 # Sizes of the stick zone, with the power of a length.
 STICK_SIZES: Mapping[str, float] = MappingProxyType({"stick_radius": 1.0, "stick_area": 2.0})
+STICK_CENTRE = "stick_centre"
 # Name of the shear traction among the scalars of solves with different increments.
 SHEAR = "shear"
 # Reason why an error is not converged.
@@ -349,6 +350,10 @@ class SolvedRun:
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
             # Zero at every fineness: its cause is absent, or too small for a cell.
             hidden = name in AT_EDGES or (self._hides_slip[step] and name in LOST)
+            if name == STICK_CENTRE:
+                hidden = self._is_lopsided[step] and (
+                    features.annulus is not None or self._hides_slip[step]
+                )
             return unknown_error(HIDDEN) if hidden else EXACT
         if name in STICK_SIZES and features.stick and self._hides_slip[step]:
             one_cell = STICK_SIZES[name] / features.stick * np.abs(value)
@@ -364,7 +369,10 @@ class SolvedRun:
         finest = min(
             (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD), default=1.0
         )
-        reason = features.unresolved(name, min(1.0, finest)) or (None if small else TOO_LARGE)
+        first = self._start_of_pressure[step] if name == PEAK else step
+        since = self.features[first : step + 1]
+        reasons = (state.unresolved(name, min(1.0, finest)) for state in since)
+        reason = next(filter(None, reasons), None if small else TOO_LARGE)
         return build_stated_error(parts, reason)
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
@@ -395,6 +403,30 @@ class SolvedRun:
             narrow = features.annulus is None or features.annulus < NARROWEST
             slips = smooth or at_rim * features.contact > NARROWEST
             found.append(slips and shears and bool(features.stick) and narrow)
+        return found
+
+    @cached_property
+    def _is_lopsided(self) -> Sequence[bool]:
+        """True for load steps at whose end the stick zone is not in the middle of the contact.
+
+        A tangential load moves it away if bodies are coupled or strained. Its centre is then at 0
+        only if all cells stick, or slip on both sides.
+        """
+        scene, pushes, strains, found = self.scene, False, False, []
+        coupled = scene.friction is not None and coupling(scene)[0]
+        for ramp in scene.load_path():
+            pushes = pushes or any(ramp.tangential.end)
+            strains = strains or ramp.strains
+            found.append(pushes and bool(coupled or strains))
+        return found
+
+    @cached_property
+    def _start_of_pressure(self) -> Sequence[int]:
+        """Last load step, up to each load step, that changed the normal load and so the cusp."""
+        found: list[int] = []
+        for step, ramp in enumerate(self.scene.load_path()):
+            constant = found and ramp.normal.start == ramp.normal.end
+            found.append(found[-1] if constant else step)
         return found
 
     @cached_property
@@ -444,12 +476,12 @@ class SolvedRun:
                 found.setdefault(comparison.part, []).append(
                     (comparison.fits_edge(step, name, order), size)
                 )
-        largest = features.largest.get(name, np.inf)
+        bounds = features.least.get(name, 0.0), features.largest.get(name, np.inf)
         parts = {}
         for part, solves in found.items():
             sizes = [size for alike, size in solves if alike] or [size for _, size in solves]
             if part in BY_SPREAD and not regular:
-                parts[part] = np.minimum(np.sqrt(np.mean(np.square(sizes), axis=0)), largest)
+                parts[part] = np.clip(np.sqrt(np.mean(np.square(sizes), axis=0)), *bounds)
             else:
                 parts[part] = np.max(sizes, axis=0)
         return parts

@@ -80,8 +80,11 @@ class Features:
     slides        true in gross slip, if no stick zone can be hidden within a cell
     left          relative errors of scalars, by name, that remain when the iteration of the edge
                   correction (subcell pressure at the contact edge) stops
+    layer_at_edge  smallest thickness of a layer that resolves the edge of the contact
     largest       largest errors of scalars, by name, that elements can cause: the edge of the
                   contact lies within an element [unit of the scalar]
+    least         least errors of scalars, by name, that rings cause: coarse solves with a ring at
+                  the same edge of the contact show none [unit of the scalar]
     """
 
     contact: float
@@ -98,8 +101,10 @@ class Features:
     slip_fitted: bool = False
     slip_by_line: bool = False
     slides: bool = False
+    layer_at_edge: float = LIMITS[LAYER]
     left: Mapping[str, float] = field(default_factory=dict)
     largest: Mapping[str, float] = field(default_factory=dict)
+    least: Mapping[str, float] = field(default_factory=dict)
 
     def convergence_order(self, name: str) -> float:
         """Return the theoretical convergence order p of a scalar in the cell size h: error ~ h^p.
@@ -147,8 +152,10 @@ class Features:
             STICK: self.stick if of_stick else None,
         }
         for feature, size in sizes.items():
-            if size is not None and size / finest < LIMITS[feature]:
-                limit = f"{LIMITS[feature]:g} (half elements and half rings count as cells)"
+            at_edge = feature == LAYER and name in CONTACT_EDGE
+            least = self.layer_at_edge if at_edge else LIMITS[feature]
+            if size is not None and size / finest < least:
+                limit = f"{least:g} (half elements and half rings count as cells)"
                 return f"the {feature} is {size:.2g} cells, below the limit {limit}"
         return None
 

@@ -19,6 +19,10 @@ ROUND_OFF = 1e-12
 # like (1 - T/µW)^-½, here by 3e4, which exceeds the contact. A solver would determine it from a
 # difference of forces below the tolerance of equilibrium.
 AT_LIMIT = 1e-9
+# Relative distance from the friction limit within which a load counts as gross sliding if no point
+# sticks. The radius of a stick zone hidden between the points is 1 % of the contact radius (the
+# cube root), less than a cell, an element or a ring.
+SLIDING = 1e-6
 # Round-off of a number of increments.
 SHARE_ROUND_OFF = 1e-9
 
@@ -41,6 +45,16 @@ def exceeds_limit(load: float, limit: float) -> bool:
     return load > limit * (1 + ROUND_OFF)
 
 
+def load_text(load: float, limit: float) -> str:
+    """Return a load above a limit to 6 digits, or to 15 where 6 are those of the limit.
+
+    load   magnitude of a tangential force or torque
+    limit  largest load of this kind that friction can carry
+    """
+    digits = 15 if f"{load:.6g}" == f"{limit:.6g}" else 6
+    return f"{load:.{digits}g}"
+
+
 def refuse_above_limit(force: float, torque: float, times: float) -> None:
     """Raise GrossSliding if friction cannot carry a tangential force and a torque together.
 
@@ -51,10 +65,16 @@ def refuse_above_limit(force: float, torque: float, times: float) -> None:
     if not exceeds_limit(1.0, times):
         return
     if not torque:
-        reached = f"tangential force {force:.6g} N exceeds the friction limit {times * force:.6g} N"
+        limit = times * force
+        reached = (
+            f"tangential force {load_text(force, limit)} N exceeds the friction limit {limit:.6g} N"
+        )
         remedy = "tangential_shift"
     elif not force:
-        reached = f"torque {torque:.6g} N m exceeds the friction limit {times * torque:.6g} N m"
+        limit = times * torque
+        reached = (
+            f"torque {load_text(torque, limit)} N m exceeds the friction limit {limit:.6g} N m"
+        )
         remedy = "twist"
     else:
         reached = (

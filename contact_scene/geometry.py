@@ -521,6 +521,25 @@ def _interpolated_surface(
     return heights, float(np.min(heights)), *lowest_point(heights)
 
 
+def _refuse_other_tables(file: ArrayFile, columns: str) -> None:
+    """Raise a validation error for a table without two columns of enough finite numbers."""
+    refuse_missing(file)
+    shape = file.values.shape
+    if 2 not in shape or max(shape) < _LEAST_POINTS:
+        raise refusal(
+            f"the table {file} holds {' x '.join(map(str, shape))} numbers",
+            f"two columns, {columns}, of at least {_LEAST_POINTS} values",
+        )
+
+
+def _order_text(x: Gap) -> str:
+    """Name the first coordinate of a profile that does not ascend, else its range [length]."""
+    late = np.flatnonzero(np.diff(x) <= 0)
+    if len(late):
+        return f"has {x[late[0] + 1]:g} m after {x[late[0]]:g} m"
+    return f"runs from {x[0]:g} m to {x[-1]:g} m"
+
+
 class RevolvedProfile(ShapedBody):
     """Body of revolution with a measured or computed profile: a table of radii and heights."""
 
@@ -575,16 +594,11 @@ class RevolvedProfile(ShapedBody):
 
     @model_validator(mode="after")
     def _is_profile(self) -> "RevolvedProfile":
-        refuse_missing(self.file)
-        if 2 not in self.file.values.shape or max(self.file.values.shape) < _LEAST_POINTS:
-            raise refusal(
-                f"the table {self.file} has shape {self.file.values.shape}",
-                f"two columns, radius and height, of at least {_LEAST_POINTS} values",
-            )
+        _refuse_other_tables(self.file, "radius and height")
         radii, heights = self.profile.radii, self.profile.heights
         if radii[0] < 0 or np.any(np.diff(radii) <= 0):
             raise refusal(
-                f"the first column of {self.file} runs from {radii[0]:g} m to {radii[-1]:g} m",
+                f"the first column of {self.file} {_order_text(radii)}",
                 "distances from the axis in ascending order, not negative",
                 "keep one half of a profile that was measured across the axis",
             )
@@ -830,16 +844,11 @@ class LineProfile(LineShape):
 
     @model_validator(mode="after")
     def _is_profile(self) -> "LineProfile":
-        refuse_missing(self.file)
-        if 2 not in self.file.values.shape or max(self.file.values.shape) < _LEAST_POINTS:
-            raise refusal(
-                f"the table {self.file} has shape {self.file.values.shape}",
-                f"two columns, x and height, of at least {_LEAST_POINTS} values",
-            )
+        _refuse_other_tables(self.file, "x and height")
         x = self.profile.radii
         if x[0] >= 0 or x[-1] <= 0 or np.any(np.diff(x) <= 0):
             raise refusal(
-                f"the first column of {self.file} runs from {x[0]:g} m to {x[-1]:g} m",
+                f"the first column of {self.file} {_order_text(x)}",
                 "ascending x on both sides of 0",
             )
         return self

@@ -19,7 +19,9 @@ class Increment(RingIncrement):
     """Converged state of the contact at the end of one increment of the load history, for output.
 
     Fields are values at the output rings. No ring lies where the pressure is infinite (the axis
-    below a tip, the rim of a punch). `peak_pressure` is then the largest pressure at a ring.
+    below a tip, the rim of a punch). `peak_pressure` is then the largest pressure at a ring of the
+    largest contact; that of a smaller contact without friction is taken at the same fraction of its
+    own radius.
 
     iterations  number of contact radii tried; for a contact at points (rings × angles) the number
                 of Newton steps

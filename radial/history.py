@@ -167,6 +167,11 @@ class _FrictionlessSteps(StepsOnRings):
         rings = output_radii(discretisation.rings, largest, scene.indenter.rim)
         return cls(scene, bodies, discretisation.tolerance, fineness, rings, largest)
 
+    @property
+    def _largest_radius(self) -> float:
+        """Radius of the largest contact of the load history, over which the rings lie [length]."""
+        return max(found.contact.radius for found in self.largest)
+
     def advance(
         self,
         ramp: LoadRamp,
@@ -225,7 +230,7 @@ class _FrictionlessSteps(StepsOnRings):
             normal_force=state.normal_force,
             approach=state.approach,
             contact_radius=contact.radius,
-            peak_pressure=largest_pressure(contact, x, p),
+            peak_pressure=largest_pressure(contact, self.radii / self._largest_radius),
             elastic_energy=contact.elastic_energy,
             radii=self.radii,
             pressure=p,

@@ -67,6 +67,22 @@ def errors_of_one(comparisons: list[Comparison], features: Features) -> StatedEr
     return stated(scene(PRESS), approach(2.0), comparisons, features)[0]["approach"]
 
 
+@pytest.mark.parametrize(
+    ("indenter", "annulus", "status"),
+    [
+        (paraboloid(), 0.3, "exact"),  # alike bodies: slip is symmetric
+        (paraboloid(RIGID), 0.3, "not converged"),  # narrower than the cells, which all stick
+        (paraboloid(RIGID), None, "not converged"),  # hidden: a smooth edge slips
+    ],
+)
+def test_a_stick_zone_with_a_centre_at_0_on_every_grid(indenter: Any, annulus: Any, status) -> None:
+    middle = [{"stick_centre": np.zeros(2), "stick_area": np.ones(1)}] * 2
+    features = Features(contact=10.0, stick=9.7, annulus=annulus)
+    same = Comparison("cells", middle, middle, [2.0, 2.0], [features] * 2)
+    asked = scene(PRESS, push(0.1), indenter=indenter)
+    assert stated(asked, middle, [same], features, features)[1]["stick_centre"].status == status
+
+
 def test_the_annulus_of_pressing_is_nearly_that_of_spence() -> None:
     """It decides if slip at a rim may hide: its order of magnitude counts."""
     row = load_reference("frictional_indentation_homogeneous")["rows"][1]
@@ -199,6 +215,17 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
 
 
+@pytest.mark.parametrize(
+    ("last", "status"), [(push(0.1), "not converged"), ({"normal_force": 2 * LOAD}, "estimated")]
+)
+def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last: dict, status: str) -> None:
+    small, large = (Features(contact=10.0, stick=stick, cusp=True) for stick in (0.5, 5.0))
+    peaks = [[{"peak_pressure": np.array([value])}] * 2 for value in (1.0, 1.1)]
+    levels = [Comparison("cells", *peaks, [2.0, 2.0])]
+    found = stated(scene(PRESS, last), peaks[0], levels, small, large)
+    assert [one["peak_pressure"].status for one in found] == ["not converged", status]
+
+
 @pytest.mark.parametrize("order", [1.0, 2.0])
 @pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
 @pytest.mark.parametrize("part", ["cells", "section"])
@@ -236,6 +263,9 @@ def test_components_of_a_vector_share_one_size() -> None:
     [
         ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
         ("approach", {"layer": 0.9}, False),
+        ("approach", {"layer": 1.9, "layer_at_edge": 2.0}, True),
+        ("contact_radius", {"layer": 1.9}, True),
+        ("contact_radius", {"layer": 1.9, "layer_at_edge": 2.0}, False),
         ("approach", {"wave": 3.9}, False),
         ("stick_radius", {"stick": 0.9}, False),
         ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
@@ -283,7 +313,7 @@ FITTED_STICK FITTED_SLIP NARROWEST STICK_SIZES ROUND_OFF PRECISION HIGHEST
 
 SHARES SHARES_OF_SMALL SMALL FEW MANY PER_RADIUS NEGLIGIBLE ROOM MAX_ENLARGEMENTS FEWEST_ELEMENTS
 SMALLEST_BOX FEWEST_HARMONICS LARGEST_OVERLAP LINEAR NEAR COARSE WIDER THICKNESS STICK OF_FINER
-OF_ANOTHER_FIT EDGE_PRECISION FINENESS
+OF_ANOTHER_FIT EDGE_PRECISION FINENESS UNIFORM_SPREAD
 
 SPARE DOUBT FURTHEST MAX_AT_ONCE LEAST_AT_ONCE UNCONVERGED MAX_ROUNDS MAX_WORSE FIRST_CELLS
 FIRST_PATH_ACCURACY MAX_CELLS LEAST_TOLERANCE MAX_DOUBLINGS DOUBLING FIRST_ELEMENTS MAX_ELEMENTS

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,6 +16,8 @@ from contact_scene import (
     FrictionMap,
 )
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import refuse_above_limit
+from contact_scene.solver_errors import GrossSliding
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))
@@ -33,6 +37,14 @@ def test_friction_carries_the_pressure_times_the_coefficient_of_the_place(mu, p)
     carried, differ = friction.largest_tangential_force(float(np.sum(p))), np.ptp(mu) > 0
     assert (carried is None) == (friction.coefficient_map is not None) == differ
     assert differ or carried == pytest.approx(np.sum(limit), rel=1e-12, abs=1e-300)
+
+
+@pytest.mark.parametrize("excess", [1e-9, 1e-3, 1.0])
+def test_a_load_above_the_limit_is_shown_apart_from_it(excess: float) -> None:
+    with pytest.raises(GrossSliding) as refused:
+        refuse_above_limit(20.0 * (1 + excess), 0.0, 1 / (1 + excess))
+    load, limit = re.findall(r"[\d.]+(?= N)", str(refused.value))
+    assert float(load) > float(limit) == 20.0
 
 
 def mapped(values, **placed):

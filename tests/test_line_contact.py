@@ -153,9 +153,10 @@ def solved_on_elements(*loading: dict[str, Any], **changes: Any) -> Any:
 def test_the_area_of_a_line_contact_is_resolved_as_its_two_edges() -> None:
     result = solved_on_elements({"normal_force": FORCE})
     solver, (end,) = ElementSolver.of(result), result.steps
-    largest = solver.measure_features(result, end).largest
+    features = solver.measure_features(result, end)
     (side,) = solver.cell_sides(result)
-    assert largest == {"contact_radius": side, "contact_area": pytest.approx(2 * side)}
+    assert features.largest == {"contact_radius": side, "contact_area": pytest.approx(2 * side)}
+    assert features.layer_at_edge == 2.0  # half elements
 
 
 @pytest.mark.parametrize("solve", [solved, solved_on_elements])

@@ -58,9 +58,13 @@ def coated(modulus: float, thickness: float, ratio: float = 0.3, base: Any = Non
 
 
 class PowerLaw(ShapedBody):
-    """r^k / k in metres: a shape that says nothing of itself but its gap."""
+    """r^k / k in metres: a shape that says little of itself but its gap."""
 
     power: float
+
+    @property
+    def is_of_revolution(self) -> bool:
+        return True
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Any:
         return np.hypot(x, y) ** self.power / self.power
@@ -124,8 +128,23 @@ def test_a_peak_between_rings_is_found() -> None:
     profile = PowerLaw.model_construct(power=4.0, material=RIGID, layers=())
     made = disc(Bodies((), MODULUS), profile, 2e-3)
     few, many = np.linspace(0, 1, 6), np.linspace(0, 1, 4001)
-    found = largest_pressure(made, few, pressure(made, few))
+    found = largest_pressure(made, few)
     assert_allclose(found, np.max(pressure(made, many)), rtol=1e-6)
+
+
+@pytest.mark.parametrize("power", [1.0, 4.0])
+def test_the_peak_of_a_contact_within_the_first_ring_grows_with_its_mean(power: float) -> None:
+    """A gap ∝ r^k keeps the contact similar to itself, also if no ring of output lies inside."""
+    indenter: Any = PowerLaw.model_construct(power=power, material=RIGID, layers=())
+    if power == 1:
+        indenter = Cone(slope_angle=0.05, material=RIGID)
+    loading = tuple(LoadStep(normal_force=share * FORCE) for share in (1.0, 1e-12))
+    whole, small = radial.solve(
+        Scene.model_construct(indenter=indenter, body=Body(material=STEEL), loading=loading)
+    ).steps
+    assert whole.radii[1] > small.contact_radius > 0
+    means = [end.normal_force / end.contact_area for end in (whole, small)]
+    assert_allclose(small.peak_pressure / means[1], whole.peak_pressure / means[0], rtol=1e-6)
 
 
 def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> None:

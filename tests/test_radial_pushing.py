@@ -11,6 +11,7 @@ from coupled_scenes import bulk, press, push, scene
 import radial
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, Layer
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from slipstick import stated_errors
 
 
 def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name() -> None:
@@ -38,3 +39,16 @@ def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
     assert ended.value.tolerance == 0.0 < ended.value.residual
     weaker = asked.model_copy(update={"friction": CoulombFriction(coefficient=2.0)})
     assert radial.solve(weaker).steps[0].stick_radius is not None
+
+
+def test_a_stick_zone_within_the_first_ring_leaves_numbers_open() -> None:
+    """Friction of pressing alone slides nothing as a whole: the axis sticks. Without the push, the
+    other method resolves peak and radius; rings at the same edge do not show their error."""
+    loads = press(increments=4), push(0.3, friction=0.01)
+    pushed = radial.solve(scene(*loads, body=bulk(0.4), friction=0.01))
+    (alone,) = radial.solve(scene(*loads[:1], body=bulk(0.4), friction=0.01)).steps
+    assert [end.status for end in pushed.steps] == ["no stick area left", "partial slip"]
+    errors = stated_errors(pushed).steps[0]
+    assert errors["peak_pressure"].status == "not converged"
+    missed = abs(alone.contact_radius - pushed.steps[0].contact_radius)
+    assert 1e-5 * A < missed < errors["contact_radius"].error < 1e-3 * A

@@ -35,6 +35,19 @@ def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
     assert all(f"{n} {'m' * letters}" in inline_svg(chart) for n in range(8))
 
 
+@pytest.mark.parametrize(("last", "spread"), [(1.1, 0.05), (4.0, 0.6)])
+def test_equal_times_are_not_drawn_apart(last: float, spread: float) -> None:
+    """Work of 1 to 1.1 s takes a tenth of the axis, and four times the work two thirds."""
+    work = curve("cells", [1.0, last], [1e-2, 1e-4], Look.POINTS)
+    panel = Panel(
+        x_label="time", y_label="error", curves=(work,), logarithmic=True, least_range=10.0
+    )
+    with style.figure_style():
+        (axes,) = draw(Chart(name="one", title="t", caption="c", rows=((panel,),))).axes
+    low, high = np.log(axes.get_xlim())
+    assert np.log(last) / (high - low) == pytest.approx(spread, abs=0.1)
+
+
 def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     names = range(36)
     curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)

@@ -19,7 +19,7 @@ from contact_scene.checks.line_contact import (
 )
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
-from contact_scene.friction_limit import exceeds_limit, limit_of_step, reaches_limit
+from contact_scene.friction_limit import exceeds_limit, limit_of_step, load_text, reaches_limit
 from contact_scene.geometry import Indenter
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID
@@ -151,7 +151,8 @@ def _gross_sliding(
         if exceeds_limit(force, limit):
             yield Problem(
                 _key_of_shear(index, loading[index]),
-                f"tangential force {force:.6g} {unit} exceeds {named_limit}: gross sliding",
+                f"tangential force {load_text(force, limit)} {unit} exceeds {named_limit}: gross "
+                "sliding",
                 hint="prescribe tangential_shift instead",
             )
         elif limit and reaches_limit(force, limit) and index + 1 < len(ramps):

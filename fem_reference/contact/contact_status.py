@@ -3,12 +3,8 @@
 import numpy as np
 
 from contact_scene.array_types import Mask
+from contact_scene.friction_limit import SLIDING
 from contact_scene.quantities.summary import ContactStatus
-
-# Relative distance from the friction limit within which the load counts as gross sliding if no
-# point sticks. The radius of a stick zone hidden between the points is 1 % of the contact radius
-# (the cube root), less than an element.
-SLIDING = 1e-6
 
 
 def contact_status(loaded: Mask, stuck: Mask, limit_ratio: float) -> ContactStatus:

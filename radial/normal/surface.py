@@ -73,16 +73,16 @@ def half_mean_pressure(contact: Disc, x: Array) -> Array:
     return found
 
 
-def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
-    """Find the largest pressure of a frictionless contact, at or between rings [force/length²].
+def largest_pressure(contact: Disc, x: Array) -> float:
+    """Find the largest pressure of a frictionless contact, at or between places [force/length²].
 
-    The maximum is searched near the ring of largest pressure. The value at this ring is returned if
-    it is the innermost ring, or if the pressure is infinite at a rim.
+    The maximum is searched near the place of largest pressure. The value at this place is returned
+    if it is the innermost one, or if the pressure is infinite at a rim.
 
     contact  frictionless contact
-    x        radii of the rings over the contact radius, increasing (n,)
-    p        pressure at the rings (n,) [force/length²]
+    x        places: radii over the contact radius, increasing (n,)
     """
+    p = pressure(contact, x)
     at = int(np.argmax(p))
     if at == 0 or contact.edge:
         return float(p[at])

@@ -14,6 +14,7 @@ import numpy as np
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import SLIDING
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_solver.residuals import (
@@ -62,6 +63,7 @@ class TangentialState:
     dissipated     energy dissipated since the start of the history [force length]; None after an
                    increment at the friction limit under force control, where the shift is undefined
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
+    slides         true if the tangential load reaches the friction limit
     """
 
     end: PointState
@@ -75,6 +77,7 @@ class TangentialState:
     carried: Array
     dissipated: float | None
     uncertainty: float
+    slides: bool
 
     @property
     def forces(self) -> tuple[float, ...]:
@@ -99,8 +102,8 @@ class TangentialState:
         """Contact status: full stick, partial slip, gross slip, or no stick area left.
 
         If points slip and the rings do not resolve the stick zone, the status is partial slip. If
-        all points slip, the status is gross slip at the friction limit and under a prescribed shift
-        or twist, otherwise no stick area left.
+        all points slip, the status is gross slip at the friction limit, otherwise no stick area
+        left: a stick zone may be hidden within a ring.
         """
         if self.end.slides:
             return ContactStatus.GROSS_SLIDING
@@ -109,8 +112,7 @@ class TangentialState:
             return ContactStatus.FULL_STICK
         if np.any(share <= 1) or self.stick_radius is None or self.stick_radius > 0:
             return ContactStatus.PARTIAL_SLIP
-        slides = any(motion is not None for motion in self.prescribed.motions[:NORMAL])
-        return ContactStatus.GROSS_SLIDING if slides else ContactStatus.NO_STICK_AREA_LEFT
+        return ContactStatus.GROSS_SLIDING if self.slides else ContactStatus.NO_STICK_AREA_LEFT
 
 
 def _prescribed_or_computed(
@@ -191,7 +193,16 @@ def tangential_state(
         forces,
         dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
+        end.slides or _reaches_limit(points, end.motion - motion, forces, limits[1]),
     )
+
+
+def _reaches_limit(points: ContactPoints, moved: Array, forces: Array, limit: Array) -> bool:
+    """Return true if the resultants `forces` (4,) of the tractions do as much work on the rigid
+    motion `moved` (4,) of an increment as friction at its limit (N,)."""
+    everywhere = (moved[:NORMAL] @ points.rigid_motions).reshape(2, -1)
+    work, power = moved[:NORMAL] @ forces[:NORMAL], limit @ np.hypot(*everywhere)
+    return bool(power > 0 and work >= power * (1 - SLIDING))
 
 
 def residuals_of(

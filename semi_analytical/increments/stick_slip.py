@@ -7,6 +7,7 @@ import numpy as np
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import SLIDING
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, motion_undefined
@@ -33,7 +34,6 @@ from semi_analytical.increments.tangential_state import (
 from semi_analytical.model import ContactModel
 
 MAX_ATTEMPTS = 3
-SLIDING = 1e-6
 # Slip is the difference of motion and displacement, and has their rounding errors. This fraction of
 # the motion is the least scale of slip, for contacts of a single cell without displacement.
 OF_MOTION = 1e-4

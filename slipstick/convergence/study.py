@@ -310,6 +310,7 @@ def _work_charts(
             title=label(one.name),
             curves=tuple(_work_curves(one, levels, shares.get(one.of), named=one is known[0])),
             logarithmic=True,
+            least_range=10.0,
             height=PANEL_HEIGHT,
         )
         for one in known[:MOST_PANELS]

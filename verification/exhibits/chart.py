@@ -49,6 +49,9 @@ class Panel(Description):
     curves: tuple[Curve, ...]
     title: str = ""
     logarithmic: bool = False
+    least_range: float = 1.0
+    """Smallest ratio of the ends of a logarithmic x axis, such as 10 for times of chance."""
+
     height: float = 1.0
     notes: tuple[tuple[float, float, str], ...] = ()
     """Short texts at (x, y)."""

@@ -90,7 +90,8 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
         )
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.logarithmic:
-        _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS)
+        least = panel.least_range, DECADE
+        _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS, least)
     if panel.x_places:
         ax.set_xticks(range(len(panel.x_places)), panel.x_places)
         ax.set_xlim(-0.5, len(panel.x_places) - 0.5)
@@ -106,22 +107,23 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     _draw_legend(ax, panel)
 
 
-def _label_decades(ax: Any, most: int) -> None:
+def _label_decades(ax: Any, most: int, least: tuple[float, float]) -> None:
     """Print labels on the logarithmic axes of a panel at powers of ten.
 
     A short axis has labels also at 2 and 5 times the powers. The y axis spans a decade at least, so
     that equal errors do not look different.
 
-    ax    axes of matplotlib
-    most  largest number of labels per axis
+    ax     axes of matplotlib
+    most   largest number of labels per axis
+    least  smallest ratio of the ends of the x axis and of the y axis
     """
-    for axis in (ax.xaxis, ax.yaxis):
+    for axis, ratio in zip((ax.xaxis, ax.yaxis), least, strict=True):
         if axis.get_scale() == "log":
             low, high = axis.get_view_interval()
-            if axis is ax.yaxis and high < DECADE * low:
+            if high < ratio * low:
                 middle = np.sqrt(low * high)
-                low, high = middle / np.sqrt(DECADE), middle * np.sqrt(DECADE)
-                ax.set_ylim(low, high)
+                low, high = middle / np.sqrt(ratio), middle * np.sqrt(ratio)
+                (ax.set_xlim if axis is ax.xaxis else ax.set_ylim)(low, high)
             parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
             axis.set_major_locator(LogLocator(subs=parts, numticks=most))
             axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
