@@ -22,7 +22,7 @@ LOOKS = """
     color facecolor edgecolor alpha linewidth linestyle marker markersize fillstyle fontsize
     fontweight rotation horizontalalignment verticalalignment unitless_position
     tick_params interpolation clim cmap aspect frame_on
-""".split()
+"""
 
 
 def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]:
@@ -62,7 +62,7 @@ def _look(part: Any) -> str:
     """Properties of a part of a figure; empty if it draws nothing itself."""
     if isinstance(part, Text) and not part.get_text():
         return ""
-    getters = {name: getattr(part, f"get_{name}", None) for name in LOOKS}
+    getters = {name: getattr(part, f"get_{name}", None) for name in LOOKS.split()}
     given = {name: getter() for name, getter in getters.items() if getter}
     given |= {name: value for name in ("scale", "xyann") if (value := getattr(part, name, None))}
     shown = [f"{name} {_value_text(value)}" for name, value in given.items() if value is not None]
