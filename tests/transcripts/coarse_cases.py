@@ -1,10 +1,13 @@
-"""Print the errors of all cases of the full level in solves on few cells, elements and rings.
+"""Print the errors of cases in solves on few cells, elements and rings, which are large.
 
-The solves are coarse, and so the errors are large. Each error, each number behind an order of
-convergence and each chart is computed, also those above the quick level.
+python coarse_cases.py        all cases of the full level: judged numbers, numbers behind orders
+                              of convergence, and charts
+python coarse_cases.py PLANTED    a case under each defect that is planted to test the verdicts
 """
 
+import sys
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -13,12 +16,18 @@ import numpy as np
 from contact_scene.solver_errors import SolverError
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.catalogue import choose
+from verification.defects.defect import Defect, planted
+from verification.defects.registry import DEFECTS
 from verification.judging.case import AnyRun, Case, Level, Run, SectionRun
+from verification.observed.observed_laws import observed
 
 FEWEST = 8  # cells, elements per radius and rings
-MAX_RUNS = 12  # that differ within a case
+MAX_RUNS = 8  # that differ within a case
 ROUND_OFF = 1e-6  # relative to the scale of an error
+LARGEST = 1e9  # some scales vanish with a defect
 SLOW = ("radial_turning",)  # stresses on the whole circle, which take 35 s
+# Cases of defects that `computed.py` judges, or whose answer depends on no solve.
+JUDGED = "hertz_unloading no_slip_indentation tilted_punch dissimilar_bodies hertz_approach_control"
 
 
 def few(count: int) -> int:
@@ -44,14 +53,14 @@ def coarse(run: AnyRun) -> AnyRun:
     return replace(run, rings=few(run.rings), fineness=1)
 
 
-def solved(case: Case) -> dict[str, Any]:
+def solved(case: Case, most: int = MAX_RUNS) -> dict[str, Any]:
     """Results of the coarse runs by label; runs that become equal are solved once."""
     known: dict[str, Any] = {}
     results = {}
     for run in case.runs:
         made = coarse(run)
         key = repr(replace(made, label="", problem=""))
-        if key not in known and len(known) < MAX_RUNS:
+        if key not in known and len(known) < most:
             try:
                 known[key] = made.solve()
             except SolverError as refused:
@@ -75,10 +84,41 @@ def errors(case: Case, results: Mapping[str, Any]) -> Iterator[float]:
             yield order.error(*pair) if order.apart else order.error(pair[0])
 
 
-for case in choose(Level.FULL):
-    if case.runs and case.name not in SLOW:
-        results = solved(case)
-        found = np.array(list(errors(case, results)))
-        found = np.where(np.abs(found) > ROUND_OFF, found, 0.0)
-        for start in range(0, len(found), 50):
-            print("judged on few", case.name, *found[start : start + 50].tolist())
+def drawn(case: Case, results: Mapping[str, Any]) -> Iterator[float]:
+    """Sums of the curves of a chart; none if it needs a result that is lacking."""
+    with suppress(KeyError):
+        for chart in case.charts(results) if case.charts else ():
+            for curve in (one for row in chart.rows for panel in row for one in panel.curves):
+                weights = np.sin(1 + 1.7 * np.arange(len(curve.y)))
+                yield from (float(weights @ curve.x), float(weights @ curve.y))
+
+
+def show(title: str, numbers: Iterator[float]) -> None:
+    found = np.array(list(numbers))
+    found = np.where(np.abs(found) > ROUND_OFF, np.clip(found, -LARGEST, LARGEST), 0.0)
+    for start in range(0, len(found), 50):
+        print("judged on few", title, *found[start : start + 50].tolist())
+
+
+def show_with_defect(defect: Defect, case: Case) -> None:
+    """Print violations of laws and errors in the first solve of a case with a defect."""
+    with planted(defect):
+        try:
+            results = solved(case, 1)
+            laws = [size for one in results.values() for size in observed(one)[:2]]
+            show(f"{defect.name} {case.name}", iter([*laws, *errors(case, results)]))
+        except (ArithmeticError, LookupError, ValueError) as failed:
+            print(defect.name, case.name, type(failed).__name__)
+
+
+if sys.argv[1:]:
+    cases = {case.name: case for case in choose(Level.QUICK)}
+    for defect in DEFECTS.values():
+        if not {*defect.cases} & {*JUDGED.split()} and cases[defect.cases[0]].runs:
+            show_with_defect(defect, cases[defect.cases[0]])
+else:
+    for case in choose(Level.FULL):
+        if case.runs and case.name not in SLOW:
+            results = solved(case)
+            show(case.name, errors(case, results))
+            show(f"{case.name} drawn", drawn(case, results))
