@@ -21,7 +21,6 @@ from fem_reference.compliance.ring_edge import (
     beyond_pressure,
     stick_area,
 )
-from radial.tangential.stick_border import ON_HARMONICS, _border_positions
 from radial.tangential.stick_border import stick_area as point_stick_area
 
 CENTRE = 200
@@ -162,17 +161,3 @@ def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
     whole = np.tile(sticks, (count, 1)).T
     area = point_stick_area(radii, shear, np.full(size.shape, 200.0), whole)
     assert np.sqrt(area / np.pi) == pytest.approx(150 + beyond, abs=6e-3)
-
-
-def test_positions_of_the_stick_border_do_not_depend_on_the_order_of_points() -> None:
-    """Two points slip at either end, and the direction of the shear turns along the points."""
-    sticks = np.array([False] * 2 + [True] * 4 + [False] * 2)[:, None]
-    angle = 0.3 * np.arange(8.0)[:, None]
-    limit = 1 + 0.1 * np.cos(angle)
-    size = np.array([1.0, 1.0, 0.92, 0.84, 0.82, 0.9, 1.0, 1.0])[:, None] * limit
-    places = np.array([0.0, 0.3, 0.6, 1.0, 1.4, 1.7, 2.0, 2.2])
-    found = _border_positions(angle, size, limit, sticks, ON_HARMONICS, places, 2)
-    ends = (each[::-1] for each in (angle, size, limit, sticks))
-    turned = _border_positions(*ends, ON_HARMONICS, -places[::-1], 2)
-    np.testing.assert_allclose(found[[1, 5]], 1 - turned[::-1][[1, 5]], atol=1e-12)
-    assert np.all((found[[1, 5]] > 0) & (found[[1, 5]] < 1))
