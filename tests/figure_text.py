@@ -1,21 +1,33 @@
-"""The content of figures as lines of text: titles, labels, limits, texts and the numbers drawn."""
+"""The content of figures as lines of text: titles, labels, limits, ticks, texts, the numbers drawn
+and the looks of all parts."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import is_color_like, to_hex
 from matplotlib.contour import ContourSet
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.quiver import Quiver
 from matplotlib.text import Text
 
+# Properties of parts of figures that their numbers do not show.
+LOOKS = """
+    color facecolor edgecolor alpha linewidth linestyle marker markersize fillstyle fontsize
+    fontweight rotation horizontalalignment verticalalignment unitless_position
+    tick_params interpolation clim cmap aspect frame_on
+"""
+
 
 def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]:
     """Yield the contents of a figure, axes by axes."""
+    yield f"size: {array_text(figure.get_size_inches())}"
     yield from _words(figure)
     for part in (figure, *figure.subfigs):
         for axes in part.axes:
@@ -25,12 +37,17 @@ def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]
             limits = array_text([*axes.get_xlim(), *axes.get_ylim()])
             yield f"limits: {limits} {axes.get_xscale()} {axes.get_yscale()}"
             yield from _words(axes)
+            for axis in (axes.xaxis, axes.yaxis):
+                labels = axis.get_major_formatter().format_ticks(axis.get_majorticklocs())
+                yield f"ticks: {' | '.join(labels)}, {len(axis.get_minorticklocs())} between"
             for artist in axes.get_children():
                 if (numbers := _drawn(artist)) is not None:
-                    name = f"{type(artist).__name__} {artist.get_label()}{_look(artist)}"
+                    name = f"{type(artist).__name__} {artist.get_label()}"
                     yield f"{name}: {array_text(numbers)}"
             if legend := axes.get_legend():
                 yield f"legend: {' | '.join(text.get_text() for text in legend.get_texts())}"
+    looks = Counter(look for part in figure.findobj(Artist.get_visible) if (look := _look(part)))
+    yield from (f"look of {number}: {look}" for look, number in looks.items())
 
 
 def _words(part: Any) -> Iterator[str]:
@@ -41,11 +58,24 @@ def _words(part: Any) -> Iterator[str]:
     )
 
 
-def _look(artist: Any) -> str:
-    """Properties of an artist of matplotlib that its numbers do not show."""
-    if isinstance(artist, AxesImage):
-        return f" {artist.get_interpolation()}"
-    return f" scale {artist.scale:g}" if isinstance(artist, Quiver) else ""
+def _look(part: Any) -> str:
+    """Properties of a part of a figure; empty if it draws nothing itself."""
+    if isinstance(part, Text) and not part.get_text():
+        return ""
+    getters = {name: getattr(part, f"get_{name}", None) for name in LOOKS.split()}
+    given = {name: getter() for name, getter in getters.items() if getter}
+    given |= {name: value for name in ("scale", "xyann") if (value := getattr(part, name, None))}
+    shown = [f"{name} {_value_text(value)}" for name, value in given.items() if value is not None]
+    return " ".join([type(part).__name__, *shown]) if shown else ""
+
+
+def _value_text(value: Any) -> str:
+    """Text of a property: a colour, a colour map or a number of each, or another value."""
+    if is_color_like(value):
+        return to_hex(value, keep_alpha=True)
+    if isinstance(value, np.ndarray):
+        return " ".join(dict.fromkeys(map(_value_text, value)))
+    return getattr(value, "name", str(value))
 
 
 def _drawn(artist: Any) -> Any:

@@ -106,3 +106,12 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert errors.count("error: ") == 1
     assert "Traceback" not in errors
     assert os.listdir(scene.parent) == [scene.name]
+
+
+def test_an_environment_variable_shows_where_an_error_happened(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SLIPSTICK_DEBUG", "1")
+    solver(ZeroDivisionError("a defect"))
+    assert slipstick("run", scene, "--output", scene.parent / "out") == 70
+    assert "Traceback" in capsys.readouterr().err

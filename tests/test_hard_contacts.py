@@ -1,9 +1,14 @@
 """Tests of hard contacts of the stability map: the solvers converge, or refuse them by name."""
 
 from dataclasses import replace
+from typing import Any
 
+import numpy as np
 import pytest
 
+from contact_scene.solver_errors import NotConverged
+from contact_solver.coupled_problem import CoupledSolution
+from contact_solver.globalisation import _first_converged
 from verification.studies.stability.contacts import (
     TOLERANCE,
     LoadingPath,
@@ -108,3 +113,15 @@ def test_hard_section_converges(cell: StabilityCell, solver: Solver) -> None:
     assert record.residual <= record.tolerance == TOLERANCE
     assert record.halvings == 0
     assert record.work == record.iterations > 0
+
+
+def test_iterations_of_methods_that_fail_are_counted() -> None:
+    nothing: Any = np.zeros(2)
+    solution = CoupledSolution(nothing, nothing, nothing, nothing, nothing, False, 3, 2)
+
+    def stall(*given: Any) -> CoupledSolution:
+        raise NotConverged("the coupled increment", 4, 1.0, TOLERANCE)
+
+    methods = (stall, stall, lambda *given: solution)
+    found = _first_converged(methods, nothing, nothing, nothing, nothing, TOLERANCE, (1, 1))
+    assert (found.iterations, found.outer_iterations) == (12, 3)

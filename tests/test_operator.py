@@ -140,6 +140,14 @@ def test_operators_on_a_domain_are_those_on_the_window(domain, window, rng):
         assert np.max(np.abs(found - expected)) < REDUCED_ROUND_OFF * np.max(np.abs(expected))
 
 
+@pytest.mark.parametrize("domain", [WINDOW, *COUPLED], ids=str)
+def test_slopes_are_central_differences_on_the_whole_window(domain, rng):
+    """They are one-sided at the border of the window."""
+    field = rng.random(domain.cells((8, 10)))
+    expected = np.stack(np.gradient(domain.extend(field)))
+    np.testing.assert_allclose(domain.differences(field), domain.restrict(expected), atol=1e-13)
+
+
 def even_map():
     """A coefficient of friction that varies along x and along y."""
     x = (np.arange(40) - 19.5) / 10

@@ -132,6 +132,7 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     (ORDER, LOST, PASSED, DRIFT, 5, ""),
     (ORDER, FAILED, {**LOST, "value": 1.0, "error": 0.5}, BETTER, 5, "fail -> inconclusive"),
     (ORDER, LOST, FAILED, OUTSIDE, 1, ""),
+    (ORDER, PASSED, {**PASSED, "allowed": 0.5, "interval": 0.5}, DRIFT, 5, ""),
     (ORDER, PASSED, FAILED, OUTSIDE, 1, ""),
     ("approach", STATED, {**STATED, "stated_error": 1.4e-8}, SAME, 0, ""),
     ("approach", STATED, {**STATED, "stated_error": 1.6e-8}, DRIFT, 5, "stated error"),

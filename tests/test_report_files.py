@@ -21,7 +21,13 @@ from report_examples import (
 from slipstick.cli.errors import ExitCode, exit_code
 from verification.regression.baseline import accept
 from verification.report.file_names import JUNIT, PACKED, PAGE, RECORD, SHEETS, SUMMARY
-from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
+from verification.report.files import (
+    EARLIER,
+    draw_again,
+    record_in,
+    set_aside_report,
+    write_report,
+)
 from verification.report.summary_text import (
     stored_records,
 )
@@ -205,3 +211,15 @@ def test_the_best_record_of_a_study_is_shown(tmp_path: Path) -> None:
         (chosen,) = stored_records(tmp_path / place for place in places)
         assert chosen.conclusion.answer == "new"
     assert stored_records([tmp_path / "nowhere"]) == ()
+
+
+@pytest.mark.parametrize(
+    ("present", "chosen"),
+    [((), RECORD), ((PACKED,), PACKED), ((RECORD,), RECORD), ((PACKED, RECORD), RECORD)],
+)
+def test_a_packed_record_is_read_if_there_is_no_other(
+    tmp_path: Path, present: tuple[str, ...], chosen: str
+) -> None:
+    for name in present:
+        (tmp_path / name).touch()
+    assert record_in(tmp_path) == tmp_path / chosen

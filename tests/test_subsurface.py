@@ -17,6 +17,7 @@ from semi_analytical.stress import (
 )
 from semi_analytical.stress.field import depth_coefficients
 from semi_analytical.stress.rectangle import half_space_response
+from semi_analytical.stress.strips import RESPONSES, border_responses
 
 COATED = Stack([(3.0, 0.2, 0.3), (0.5, 0.5, 0.4)], (1.0, 0.3))
 GRID = SurfaceGrid((8, 8), (1.0, 1.0))
@@ -49,6 +50,29 @@ def test_a_section_has_the_values_of_its_plane_and_of_no_other(rng):
 def test_a_number_on_an_interface_is_its_upper_side():
     field = subsurface(COATED, GRID, LOAD, None, [0.1, 0.3 * (1 + 1e-15), 0.5, 0.7, 0.8])
     assert [level.layer for level in field.levels] == [0, 0, 1, 1, 2]
+
+
+@pytest.mark.parametrize("stack", [Stack([], (1.0, 0.3)), COATED], ids=["half-space", "coated"])
+def test_stresses_below_strips_are_in_equilibrium(stack):
+    """The forces along x, y and z balance. Constants of the responses cancel in differences."""
+    x, step = np.array([-0.7, -0.2, 0.15, 0.4]), 1e-3
+
+    def stresses(right, down):
+        found = border_responses(stack, Level(0.1 + down * step, 0), x + right * step)
+        return dict(zip(RESPONSES, np.diff(found), strict=True))
+
+    right, left, down, up = (stresses(*to) for to in ((1, 0), (-1, 0), (0, 1), (0, -1)))
+    for along, below, traction in (
+        ("xx", "xz", "x"),
+        ("xx", "xz", "z"),
+        ("xz", "zz", "x"),
+        ("xz", "zz", "z"),
+        ("xy", "yz", "y"),
+    ):
+        first, second = f"{along} {traction}", f"{below} {traction}"
+        change = right[first] - left[first]
+        assert np.max(np.abs(change)) > step
+        np.testing.assert_allclose(change, up[second] - down[second], atol=2e-3 * step)
 
 
 STEEL = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)

@@ -110,7 +110,8 @@ def show_drawn() -> None:
         show("drawn", name, posed)
     for name in ANSWERED.split():
         truths = drawn(name, 2, 0).truths
-        show("answer", name, [(one.step, one.quantity, one.reference.value) for one in truths])
+        bounds = [one.reference.value + one.reference.uncertainty for one in truths]
+        show("answer", name, bounds, [(one.step, one.quantity) for one in truths])
 
 
 if sys.argv[1] == "DRAWN":

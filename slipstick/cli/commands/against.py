@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from math import ceil, log10
+from math import floor, log10
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -248,7 +248,8 @@ def _fitted_row(one: FittedInput) -> tuple[str, ...]:
     if not one.by_scatter:
         return name, f"{one.first:g}", f"{one.value:.{FITTED_DIGITS}g}", by_errors
     # Two digits of the scatter, and the value to the same decimals (JCGM 100:2008, 7.2.6).
-    digits = min(FITTED_DIGITS, max(2, ceil(log10(one.value / one.by_scatter)) + 2))
+    digits = 2 + floor(log10(one.value)) - floor(log10(one.by_scatter))
+    digits = min(FITTED_DIGITS, max(2, digits))
     text = f"{one.value:.{digits}g} ± {one.by_scatter:.2g}"
     return name, f"{one.first:g}", text, by_errors
 
