@@ -20,9 +20,9 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 - If an edge that is not fitted may have the largest tensile stress, the error has not converged.
 - A section of finite elements ends where the displacement is that of a half-space. A wider section
   is compared, with the order 2, and 1 in plane strain.
-- Shear of the radial solver that depends on its rings is compared with that of two solves with half
-  and two thirds of the rings, with the order 2, and 1 near the surface, where the place of the
-  largest stress is searched again.
+- Below shear that depends on the rings of the radial solver, two solves with other numbers of rings
+  are compared. The order is 2, and 1 near the surface. There the place of a largest stress moves
+  with the edge and is searched again.
 - Other stresses than the tensile stress are compared at the edge only if their maximum was found
   near the surface.
 """
@@ -507,7 +507,7 @@ def _below_other_rings(
         return []
     if run is None:
         return "the run does not state its number of rings: run the scene again"
-    others = []
+    others: list[tuple[float, list[float]]] = []
     reason = ""
     for share in (*(share for _, share, _ in solver.shares), MORE_RINGS):
         if len(others) == len(solver.shares):
