@@ -422,11 +422,14 @@ class SolvedRun:
 
     @cached_property
     def _start_of_pressure(self) -> Sequence[int]:
-        """Last load step, up to each load step, that changed the normal load and so the cusp."""
+        """Last load step, up to each load step, that changed the cusp of the pressure.
+
+        These are steps with another normal load, and those that end in gross slip.
+        """
         found: list[int] = []
         for step, ramp in enumerate(self.scene.load_path()):
             constant = found and ramp.normal.start == ramp.normal.end
-            found.append(found[-1] if constant else step)
+            found.append(found[-1] if constant and not self.features[step].slides else step)
         return found
 
     @cached_property
