@@ -422,10 +422,8 @@ class SolvedRun:
 
     @cached_property
     def _start_of_pressure(self) -> Sequence[int]:
-        """Last load step, up to each load step, that changed the cusp of the pressure.
-
-        These are steps with another normal load, and those that end in gross slip.
-        """
+        """Last load step, up to each load step, with another normal load or gross slip, which
+        change the cusp of the pressure."""
         found: list[int] = []
         for step, ramp in enumerate(self.scene.load_path()):
             constant = found and ramp.normal.start == ramp.normal.end
