@@ -299,6 +299,19 @@ def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any)
     assert [size(one) for one in inside] == pytest.approx([exceeds, exceeds])
 
 
+def test_the_largest_tension_of_a_body_has_the_error_of_its_layer() -> None:
+    push_ = LoadStep(tangential_force=(50.0, 0.0), increments=1)
+    posed = indented(
+        0.018, 1e3, Layer(thickness=A, material=steel(0.3, 150e9)), steel(), 0.1, push_
+    )
+    state = state_of_result(package.solve(posed, "radial"), None)
+    field = body_response(replace(state, by_increments=0.0, shear_error=0.0)).stress([0.0])
+    found = [one for one in extremes(field) if one.measure == "max_principal"][:2]
+    assert [one.region for one in found] == ["body", "surface"]
+    whole, part = stress_errors(state, field, found)
+    assert size(whole) == pytest.approx(size(part))
+
+
 @pytest.mark.parametrize(("friction", "count"), [(0.6, 32)])
 def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
     """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
