@@ -351,7 +351,7 @@ class SolvedRun:
             # Zero at every fineness: its cause is absent, or too small for a cell.
             hidden = name in AT_EDGES or (self._hides_slip[step] and name in LOST)
             if name == STICK_CENTRE:
-                hidden = self._is_lopsided[step] and (
+                hidden = self._has_eccentric_stick[step] and (
                     features.annulus is not None or self._hides_slip[step]
                 )
             return unknown_error(HIDDEN) if hidden else EXACT
@@ -369,11 +369,18 @@ class SolvedRun:
         finest = min(
             (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD), default=1.0
         )
-        first = self._start_of_pressure[step] if name == PEAK else step
-        since = self.features[first : step + 1]
-        reasons = (state.unresolved(name, min(1.0, finest)) for state in since)
-        reason = next(filter(None, reasons), None if small else TOO_LARGE)
+        finest = min(1.0, finest)
+        reason = features.unresolved(name, finest) or (None if small else TOO_LARGE)
+        if name == PEAK:
+            reason = self._old_cusp(step, finest) or reason
         return build_stated_error(parts, reason)
+
+    def _old_cusp(self, step: int, finest: float) -> str | None:
+        """Return the reason if the peak still has an unresolved cusp of an earlier load step."""
+        for earlier in range(self._start_of_pressure[step], step):
+            if reason := self.features[earlier].unresolved(PEAK, finest):
+                return f"since step {earlier + 1}, {reason}"
+        return None
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
         """Return the largest difference of a scalar from other methods;
@@ -406,7 +413,7 @@ class SolvedRun:
         return found
 
     @cached_property
-    def _is_lopsided(self) -> Sequence[bool]:
+    def _has_eccentric_stick(self) -> Sequence[bool]:
         """True for load steps at whose end the stick zone is not in the middle of the contact.
 
         A tangential load moves it away if bodies are coupled or strained. Its centre is then at 0

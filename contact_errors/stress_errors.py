@@ -515,8 +515,8 @@ def _below_other_rings(
         try:
             result = solver.solve(replace(run, space=share * run.space))
             coarse = state_of_result(result, state.step)
-            bodies = {name: getattr(state, name) for name in ("strain", "body", "indenter")}
-            below = replace(response, state=replace(coarse, **bodies))
+            coarse = replace(coarse, strain=state.strain, body=state.body, indenter=state.indenter)
+            below = replace(response, state=coarse)
             others.append((1 / share, below.values_near(found, levels, moves)))
         except (SolverError, NoSuchState) as error:
             reason = f"with other numbers of rings, {error}"

@@ -224,6 +224,9 @@ def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last: dict, statu
     levels = [Comparison("cells", *peaks, [2.0, 2.0])]
     found = stated(scene(PRESS, last), peaks[0], levels, small, large)
     assert [one["peak_pressure"].status for one in found] == ["not converged", status]
+    first, second = (one["peak_pressure"].reason for one in found)
+    assert first is not None
+    assert second == (f"since step 1, {first}" if status == "not converged" else None)
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0])

@@ -144,18 +144,22 @@ class CellWindow:
         shear = None if self.shear is None else combined(self.shear)
         return replace(self, grid=grid, pressure=combined(self.pressure), shear=shear)
 
-    def largest_outside(self, levels: Sequence[Level], half: Sequence[float]) -> StressPoints:
-        """Find the points with the largest stresses on each depth outside a rectangle.
+    def largest_at(
+        self, levels: Sequence[Level], outside: Sequence[float] | None = None
+    ) -> StressPoints:
+        """Find the points with the largest stresses on each depth.
 
-        levels  depths, each with its layer
-        half    half widths of the rectangle along x and y [length]
+        levels   depths, each with its layer
+        outside  half widths along x and y of a rectangle without these points [length]
         """
         columns, rows = self.computed_cells(section_only=False)
         found = []
         for field in self.stress_by_level(tuple(levels), None, rows):
             points = _stress_points(field, self.grid, columns)
-            outside = (np.abs(points.x) > half[0]) | (np.abs(points.y) > half[1])
-            found.append(points.select(outside).select_largest())
+            if outside is not None:
+                beyond = (np.abs(points.x) > outside[0]) | (np.abs(points.y) > outside[1])
+                points = points.select(beyond)
+            found.append(points.select_largest())
         return StressPoints.concatenate(found)
 
     @property
@@ -381,7 +385,7 @@ class OnCells(BodyResponse):
                 }
             if not levels:
                 break
-            more = window.largest_outside(sorted(levels, key=lambda level: level.depth), (-1, -1))
+            more = window.largest_at(sorted(levels, key=lambda level: level.depth))
             field = replace(field, points=StressPoints.concatenate([points.flattened, more]))
         return field
 
@@ -409,7 +413,7 @@ class OnCells(BodyResponse):
             levels = [
                 s for s in _stress_levels(window.body, sorted(far), contact) if s.depth in far
             ]
-            beyond = window.largest_outside(levels, half)
+            beyond = window.largest_at(levels, outside=half)
             followed = field.points.at_edge & np.isin(field.points.depth, [*far])
             inner = replace(field.points, at_edge=field.points.at_edge & ~followed)
             points = StressPoints.concatenate([inner.flattened, beyond])
