@@ -151,6 +151,15 @@ def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatte
     assert_allclose(circle.smooth[..., 0], np.ones((3, 241)) * [[0.1], [0.2], [1.0]], rtol=1e-9)
 
 
+@pytest.mark.parametrize("r", [1.0, 1 + 4.0**-5, 1 - 4.0**-5, 0.5])
+def test_round_off_of_a_position_does_not_change_its_stress(r: float) -> None:
+    """Shear that turns about the axis has a kink there, which the rays resolve in part."""
+    kinked = circle_of(lambda e, t: MU * np.cos(8 * t), lambda e, t: 0.0, lambda e, t: 1.0)
+    x = r + 1e-15 * np.arange(-4, 5)
+    found = below_circle(kinked, HalfSpace(G, NU), x, 0 * x, 0.0)
+    assert_allclose(found, np.broadcast_to(found[:, 4:5], found.shape), rtol=1e-9, atol=1e-9)
+
+
 @pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])
 def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
     drawn = np.random.default_rng(1)

@@ -34,6 +34,9 @@ MARGIN = 1.15  # half side of a map, relative to the extent of the contact
 
 RINGS_ACROSS = 121  # cells along a side; odd, so that the axis is a cell centre
 RINGS_MARGIN = 1.3  # half side of the cells, relative to the largest contact radius
+# Interpolated truth above which a cell counts as true. Cells may lie in the middle between two
+# rings, where round-off must not decide.
+HALF = 0.5 + 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +78,7 @@ class RingsAbove:
         if field is None:
             return None
         sampled = self._interpolate_rings(rings, field.astype(float))
-        return sampled > 0.5 if field.dtype == bool else sampled
+        return sampled > HALF if field.dtype == bool else sampled
 
     def vector(self, step: Increment, name: str) -> Field | None:
         """Sample the x and y components of shear or slip at the cell centres (2, nx, ny).

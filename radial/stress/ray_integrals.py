@@ -19,6 +19,10 @@ from radial.stress.loaded_circle import LoadedCircle
 from semi_analytical.frf.stack import HalfSpace
 
 SURFACE = 1e-8  # points at smaller depths over the radius are on the surface
+# Points nearer to the edge are on its inner side, however they are rounded. There the pressure is
+# 4e-7 of its scale.
+ON_EDGE = 1e-13
+ROUND_OFF = 1e-9  # of a number of intervals
 # Gauss points of a panel of angles and of a ray
 ANGLES = 8
 POINTS = 6
@@ -42,14 +46,16 @@ def below_circle(
     """
     found = np.empty((9, len(x)))
     r = np.hypot(x, y)
+    inward = np.where(np.abs(r - 1) < ON_EDGE, (1 - ON_EDGE) / np.maximum(r, 0.5), 1.0)
+    x, y, r = x * inward, y * inward, r * inward
     depth = 0.0 if depth < SURFACE else depth
     # Points with the same panels are evaluated together.
     apart = np.sqrt(np.abs((1 - r) * (1 + r)))
-    widths = np.ceil(_count_intervals(np.where(r < 1, np.maximum(apart, LEAST), 1.0)))
+    widths = _count_intervals(np.where(r < 1, np.maximum(apart, LEAST), 1.0))
     nearest = np.maximum(np.hypot(np.where(r < 1, 0.0, r - 1), depth), LEAST)
     if depth == 0:
         nearest = np.maximum(np.abs(1 - r), LEAST)
-    lengths = 1 + np.ceil(_count_intervals(np.minimum(nearest, 1.0)))
+    lengths = 1 + _count_intervals(np.minimum(nearest, 1.0))
     kinds = np.stack([r < 1, widths, lengths]).astype(np.intp)
     for inside, wide, long in np.unique(kinds, axis=1).T:
         alike = np.flatnonzero(np.all(kinds == np.array([[inside], [wide], [long]]), axis=0))
@@ -64,9 +70,11 @@ def below_circle(
 
 
 def _count_intervals(smallest: Array) -> Array:
-    """Return the number, not rounded, of intervals growing from `smallest` to 1 in constant
-    ratio."""
-    return np.asarray(1 - np.log(smallest) / np.log(WIDER))
+    """Return the least number of intervals that grow from `smallest` to 1 in a constant ratio.
+
+    Near a power of the ratio, where searches place points, round-off does not change the number.
+    """
+    return np.ceil(1 - np.log(smallest) / np.log(WIDER) - ROUND_OFF)
 
 
 def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
