@@ -327,6 +327,23 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     assert float(error.error) < 0.05 * largest[0].value
 
 
+def test_rings_at_the_edge_of_a_contact_at_points_do_not_change_its_stress() -> None:
+    """After a change of the normal load under torque, the tractions of single rings scatter."""
+    steps = (LoadStep(normal_force=force, torque=0.01, increments=2) for force in (2.0, 1.8))
+    state = state_of_result(slipstick.solve(frictional(BARE, BALL, *steps), "radial"), 2)
+    assert state.pressed is not None
+    outermost = np.hypot(*state.surface.positions) > 0.99 * state.pressed[1]
+    pressure = state.tractions["pressure"]
+    assert np.any(pressure[outermost] > 0)
+    other = state.tractions | {"pressure": np.where(outermost, 2 * pressure, pressure)}
+    at = np.array([0.0, 0.9]), np.zeros(2), [Level(0.1, 0)] * 2
+    found = [
+        OnDisc(replace(state, tractions=tractions)).stress_at(*at).stress
+        for tractions in (state.tractions, other)
+    ]
+    assert_allclose(*found, rtol=1e-12)
+
+
 A_BARE = 0.86e-3  # contact radius without layer [m]
 TWO_LAYERS = on_steel(0.9 * A_BARE, 2.4e11).layers + on_steel(0.16 * A_BARE, 1.2e12).layers
 
