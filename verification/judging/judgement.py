@@ -251,7 +251,7 @@ def judge_worst(
     """Judge the worst of several numbers that should be zero, one number for each run.
 
     The worst number has the largest ratio to the accepted value of its run. NaN counts as the
-    worst.
+    worst. Numbers that are round-off are equal.
 
     case     verification case
     found    numbers, by label of the run
@@ -262,7 +262,10 @@ def judge_worst(
     allowed  function from a run to its accepted value
     where    place of the number in the run, by label of the run
     """
-    ratio = {label: value / allowed(case.run(label)) for label, value in found.items()}
+    ratio = {
+        label: 0.0 if value < ROUNDING else value / allowed(case.run(label))
+        for label, value in found.items()
+    }
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
     said = meaning.format(runs=len(found), where=where.get(worst, ""))
     return _judge_zero(name, said, worst, found[worst], source, allowed(case.run(worst)), because)

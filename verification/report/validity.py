@@ -45,9 +45,10 @@ class Tested:
 
     @property
     def error_rank(self) -> float:
-        """Error relative to its scale; -1 unless the reference is from outside of the program."""
+        """Error relative to its scale, in three digits, so that round-off does not choose between
+        equal errors; -1 unless the reference is from outside of the program."""
         outside = self.verdict.reference_kind in OUTSIDE and self.verdict.error is not None
-        return self.verdict.error or 0.0 if outside else -1.0
+        return float(f"{self.verdict.error or 0.0:.3g}") if outside else -1.0
 
     @property
     def name(self) -> str:
