@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 # Relative difference of values that are equal by symmetry: round-off must not choose their place.
 EQUAL = 1e-9
+# Round-off of values that should be 0, relative to the largest magnitude of the field.
+ZERO = 1e-13
 
 
 def index_of_largest(values: NDArray[np.float64]) -> int:
@@ -16,4 +18,6 @@ def index_of_largest(values: NDArray[np.float64]) -> int:
 
     values  values of a field; -inf in points that do not count
     """
-    return int(np.argmax(np.isclose(values, np.max(values), EQUAL, 0.0, equal_nan=True)))
+    sizes = np.abs(values[np.isfinite(values)])
+    zero = ZERO * np.max(sizes, initial=0.0)
+    return int(np.argmax(np.isclose(values, np.max(values), EQUAL, zero, equal_nan=True)))

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from contact_results.largest import index_of_largest
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.points import StressPoints
 
@@ -47,3 +48,9 @@ def test_principal_stresses_keep_their_digits_and_make_up_the_von_mises_stress(v
         np.testing.assert_allclose(found, exact, rtol=0, atol=near)
         equivalent = np.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2)
         assert von_mises(components(whole)) == pytest.approx(equivalent, rel=0, abs=near)
+
+
+def test_round_off_does_not_choose_the_place_of_a_largest_stress_that_is_zero() -> None:
+    """Beside a contact the surface is free of stress: the first of equal points counts."""
+    assert index_of_largest(np.array([-1e9, 2e-7, 5e-7, 0.0, -np.inf])) == 1
+    assert index_of_largest(np.array([-1e9, 2e-7, 1.0, 0.0, -np.inf])) == 2
