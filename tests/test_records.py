@@ -43,6 +43,15 @@ def test_a_record_depends_on_what_its_modules_import(
     assert all((ROOT / path).is_file() for path in found)
 
 
+def test_imports_are_found_in_every_form(tmp_path: Path) -> None:
+    path = tmp_path / "imports.py"
+    of_a_function = "from contact_solver import (\n        krylov,\n        shear as zones,\n    )"
+    path.write_text(f"import radial.history as model\n\n\ndef f():\n    {of_a_function}\n")
+    names = ("contact_solver/{}", "krylov", "shear"), ("radial/{}", "history")
+    expected = {f.format(f"{m}.py") for f, *modules in names for m in ("__init__", *modules)}
+    assert {*provenance._imported_files(str(path))} == expected
+
+
 def test_a_record_is_older_where_a_source_of_its_closure_changes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -91,8 +91,11 @@ class LoadedCircle:
         offset = turn - j
         flat = self.smooth.reshape(3, -1)
         here, next_ = k * angles + j, k * angles + (j + 1) % angles
-        inner = flat[:, here] * (1 - offset) + flat[:, next_] * offset
-        outer = flat[:, here + angles] * (1 - offset) + flat[:, next_ + angles] * offset
+        inner, inner_next, outer, outer_next = (
+            flat.take(one, axis=1) for one in (here, next_, here + angles, next_ + angles)
+        )
+        inner = inner * (1 - offset) + inner_next * offset
+        outer = outer * (1 - offset) + outer_next * offset
         found = np.asarray(root * (inner * (1 - off) + outer * off))
         if self.is_round:
             outward, around, p = found

@@ -202,41 +202,30 @@ def _point_force_fields(material: HalfSpace, d: Array, depth: float) -> tuple[Ar
     d         horizontal distance between the point and the force (any shape)
     depth     depth of the point, in the unit of d
     """
-    G, nu = material
-    g, z = 1 - 2 * nu, depth
-    R = np.hypot(d, z)
-    sum_ = R + z
-    # At the surface (z = 0) all quadrature points have d > 0.
-    move, unit = d / (4 * pi * G), d / (2 * pi)
+    g = 1 - 2 * material.poisson_ratio
+    R = np.hypot(d, depth)
+    # Sine and cosine of the angle between the distance R and the axis, and the tangent of its half.
+    # At the surface (depth 0) all quadrature points have d > 0.
+    s, c, h = d / R, depth / R, d / (R + depth)
+    ss, cc, sc, hh = s * s, c * c, s * c, h * h
+    move, unit = 1 / (4 * pi * material.shear_modulus), 1 / (2 * pi * R)
     by_p = (
-        -move * (d * z / R**3 - g * d / (R * sum_)),
-        move * (z * z / R**3 + 2 * (1 - nu) / R),
-        unit * (g / (R * sum_) - 3 * z * d * d / R**5),
-        unit * g * (z / R**3 - 1 / (R * sum_)),
-        -unit * 3 * z**3 / R**5,
-        unit * 3 * d * z * z / R**5,
+        move * s * (g * h - sc),
+        move * s * (1 + g + cc),
+        unit * (g * h - 3 * ss * sc),
+        unit * g * (sc - h),
+        unit * (-3 * sc * cc),
+        unit * (3 * sc * sc),
     )
     by_s = (
-        move * (1 / R + d * d / R**3 + g * (1 / sum_ - d * d / (R * sum_**2))),
-        -move * (d * z / R**3 + g * d / (R * sum_)),
-        unit
-        * (
-            3 * d**3 / R**5
-            + g
-            * d
-            * (
-                3 / (R * sum_**2)
-                - 1 / R**3
-                - d * d / (R**3 * sum_**2)
-                - 2 * d * d / (R**2 * sum_**3)
-            )
-        ),
-        unit * g * d * (1 / (R * sum_**2) - 1 / R**3),
-        unit * 3 * d * z * z / R**5,
-        -unit * 3 * d * d * z / R**5,
+        move * (s + s * ss + g * (h - s * hh)),
+        -move * s * (sc + g * h),
+        unit * (3 * ss * ss + g * (3 * hh - ss - ss * hh - 2 * s * h * hh)),
+        unit * g * (hh - ss),
+        by_p[5],
+        unit * (-3 * ss * sc),
     )
-    by_t = (move * (1 / R + g / sum_), unit * g * d / (R * sum_**2))
-    return (*by_p, *by_s, *by_t)
+    return (*by_p, *by_s, move * (s + g * h), unit * g * hh)
 
 
 def _integrate_each_ray(

@@ -7,13 +7,12 @@ the code.
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import io
 import re
 import subprocess
 import tokenize
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
@@ -32,6 +31,9 @@ EXPORTS = ("verification/__init__.py", "slipstick/__init__.py")
 RESOLVED = re.compile(r'"([\w.]+):\w+"')
 # A catalogue imports the modules of its package by name.
 BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
+# Import statements as the formatter writes them. Other lines that look like one, and the words of
+# comments, name no modules of the project.
+IMPORT = re.compile(r"^ *(?:from ([\w.]+) import (\([^)]*\)|.*)|import (.*))", re.MULTILINE)
 
 UNREAD = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
 STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
@@ -98,34 +100,33 @@ def _imported_files(path: str) -> tuple[str, ...]:
     text = (ROOT / path).read_text(encoding="utf-8")
     names = {f for name in BY_NAME.findall(text) for f in _module_files(name, whole=True)}
     names |= {f for name in RESOLVED.findall(text) for f in _module_files(name)}
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Import):
-            names |= {file for name in node.names for file in _module_files(name.name)}
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            names |= {
-                file for name in node.names for file in _module_files(f"{node.module}.{name.name}")
-            }
+    for package, objects, modules in IMPORT.findall(text):
+        prefix = f"{package}." if package else ""
+        for name in re.findall(r"(?<! as )\b[\w.]+", objects or modules):
+            names |= {*_module_files(prefix + name)}
     return tuple(names)
 
 
-def _module_files(module: str, *, whole: bool = False) -> Iterator[str]:
-    """Yield the source files that importing a module executes: its own file and its packages'
+@cache
+def _module_files(module: str, *, whole: bool = False) -> tuple[str, ...]:
+    """Return the source files that importing a module executes: its own file and its packages'
     files.
 
     The paths are relative to the repository. A module of another project has none.
 
     module  dotted name
-    whole   if True, also yield all files of a package
+    whole   if True, also return all files of a package
     """
     parts = module.split(".")
     if parts[0] not in PACKAGES:
-        return
-    for depth in range(1, len(parts) + 1):
-        base = "/".join(parts[:depth])
-        yield from (f for f in (f"{base}/__init__.py", f"{base}.py") if (ROOT / f).is_file())
-    folder = ROOT / "/".join(parts)
-    if whole and folder.is_dir():
-        yield from (path.relative_to(ROOT).as_posix() for path in folder.rglob("*.py"))
+        return ()
+    bases = ["/".join(parts[:depth]) for depth in range(1, len(parts) + 1)]
+    paths = [path for base in bases for path in (f"{base}/__init__.py", f"{base}.py")]
+    found = [path for path in paths if (ROOT / path).is_file()]
+    if whole:
+        inside = (ROOT / bases[-1]).rglob("*.py")
+        found += [path.relative_to(ROOT).as_posix() for path in inside]
+    return tuple(found)
 
 
 @cache
