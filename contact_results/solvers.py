@@ -43,6 +43,17 @@ SOLVERS: Mapping[SolverName, str] = MappingProxyType(
 )
 
 
+# Solver of each name in a result.
+NAMES_IN_RESULTS: Mapping[str, SolverName] = MappingProxyType(
+    {
+        "semi_analytical": SolverName.SEMI_ANALYTICAL,
+        "fem_reference.penalty": SolverName.FEM,
+        "fem_reference.complementarity": SolverName.FEM_COMPLEMENTARITY,
+        "radial": SolverName.RADIAL,
+    }
+)
+
+
 def solver_of(result: Any) -> DiscretisedSolver:
     """Return the solver of a result, with the plan of the result and its settings.
 
@@ -51,6 +62,4 @@ def solver_of(result: Any) -> DiscretisedSolver:
     if not all(hasattr(result, name) for name in ("solver", "plan", "increments")):
         kind = type(result).__name__
         raise TypeError(f"got a {kind}, expected the result that slipstick.solve returns")
-    package = result.solver.partition(".")[0]
-    name = next(name for name, path in SOLVERS.items() if path.startswith(f"{package}."))
-    return name.solver.of(result)
+    return NAMES_IN_RESULTS[result.solver].solver.of(result)

@@ -123,15 +123,16 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
 
 
 def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
-    """Draw the medians as a colour map over two keys,
-    with the largest numerical error in the title."""
+    """Draw the medians as a colour map over two keys, with the largest stated error as title."""
     middle, low, high = quantity.percentiles[:, 1]
     image = ax.pcolormesh(
         across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP
     )
     ax.figure.colorbar(image, ax=ax, label=quantity.label)
-    largest = np.max(np.nan_to_num(high - low)) / 2
-    ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}".rstrip())
+    widths = high - low
+    if np.any(np.isfinite(widths)):  # else without errors
+        largest = np.nanmax(widths) / 2
+        ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}".rstrip())
     for key, axis in ((across, ax.xaxis), (upward, ax.yaxis)):
         if len(key.values) <= MAX_TICKS:  # the fields reach beyond the values, which the ticks mark
             axis.set_ticks(key.values)

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from command import slipstick
+from command import slipstick, succeeded
 
 from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.cases.catalogue import CASES
@@ -57,6 +57,12 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         assert PLACEHOLDER.search(rest[0]) or rest[0] in STUDIES
     if rest and name == "verify" and not rest[0].startswith("-"):
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
+
+
+@pytest.mark.parametrize("name", ALL_COMMANDS)
+def test_no_word_of_a_help_is_clipped(name: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert "…" not in succeeded(*name.split(), "--help", cwd=tmp_path).stdout
 
 
 @pytest.mark.parametrize(("case", "quantity", "run", "error"), ERRORS)

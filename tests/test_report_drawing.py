@@ -1,5 +1,6 @@
 """Tests of charts: labels of logarithmic axes, visible points, distinguishable series."""
 
+import itertools
 import re
 from pathlib import Path
 
@@ -46,6 +47,21 @@ def test_equal_times_are_not_drawn_apart(last: float, spread: float) -> None:
         (axes,) = draw(Chart(name="one", title="t", caption="c", rows=((panel,),))).axes
     low, high = np.log(axes.get_xlim())
     assert np.log(last) / (high - low) == pytest.approx(spread, abs=0.1)
+
+
+@pytest.mark.parametrize("ratio", [1.01, 1.5, 2.4, 4.9, 5.1])
+def test_labels_of_a_short_logarithmic_axis_do_not_overlap(ratio: float) -> None:
+    errors = curve("cells", [1.18e-4, ratio * 1.18e-4], [1e-2, 1e-3], Look.POINTS)
+    panel = Panel(x_label="time", y_label="error", curves=(errors,), logarithmic=True)
+    with style.figure_style():
+        figure = draw(Chart(name="one", title="t", caption="c", rows=((panel,),)))
+        figure.draw_without_rendering()
+        (axes,) = figure.axes
+        low, high = axes.get_xlim()
+        places = zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)
+        boxes = [label.get_window_extent() for x, label in places if low <= x <= high]
+    assert len(boxes) >= 2
+    assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
 def test_no_two_series_of_one_chart_are_drawn_alike() -> None:

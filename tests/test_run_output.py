@@ -11,19 +11,22 @@ from typing import Any
 
 import numpy as np
 import pytest
+from contact_scenes import PRESS, scene
 from matplotlib.figure import Figure
 from small_result import small_errors, small_result
 
 from contact_results.directory.file_names import PAGE
 from contact_results.figures.map_panels import PANEL, MapFrame
 from contact_results.figures.maps import field_map
-from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE, overview
 from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.result_report import ResultReport
+from contact_scene.discretisation import FiniteElementDiscretisation
 from semi_analytical.fields import Result
+from slipstick import solve
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -98,6 +101,38 @@ def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, t
     across = re.findall(r"background-position:(\d+)%", page)
     assert across == [f"{100 * n // (columns - 1)}" for n in (*range(columns), *range(columns - 1))]
     assert page.count("data:image") == 1
+
+
+def test_a_title_of_two_lines_stands_above_the_panels() -> None:
+    """The page cuts the overview into panels below the title."""
+    result = small_result()
+    named = replace(result, scene=result.scene.model_copy(update={"title": "A long title " * 10}))
+    report = ResultReport.of(named)
+    with figure_style():
+        figure: Any = overview(report, MapFrame.around_contact(report))
+        (title,) = [text for text in figure.texts if "end of step" in text.get_text()]
+        title_box = title.get_window_extent(figure.canvas.get_renderer())
+    assert title.get_text().count("\n") == 1
+    assert title_box.y0 > figure.bbox.height - TITLE * figure.dpi
+    assert title_box.y1 < figure.bbox.height
+
+
+@pytest.mark.parametrize(
+    ("name", "settings"),
+    [
+        ("semi-analytical", {"grid": "24 x 20 cells on 1.2 x 1 mm"}),
+        ("fem", {"method": "penalty", "mesh": "4 elements per contact radius"}),
+        ("fem-complementarity", {"method": "complementarity"}),
+        ("radial", {"rings": "over the largest contact"}),
+    ],
+)
+def test_a_page_names_the_solver_and_its_fineness(name, settings, tmp_path) -> None:
+    fineness = FiniteElementDiscretisation(elements_per_radius=4) if "method" in settings else None
+    result = small_result() if "grid" in settings else solve(scene(PRESS), name, fineness)
+    write_page(ResultReport.of(result), tmp_path)
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    for row, text in ({"solver": name} | settings).items():
+        assert re.search(f'<th scope="row">{row}</th><td>[^<]*{text}', page)
 
 
 def test_a_map_fills_its_panel_whatever_the_size_of_the_contact() -> None:

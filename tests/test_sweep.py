@@ -39,3 +39,14 @@ def test_a_map_has_ticks_at_its_values_and_labels_that_fit() -> None:
         _label(ax, key, axis)
     assert (*ax.get_xticks(), *ax.get_yticks()) == (0.1, 0.4, 0.7, 100.0, 450.0)
     assert max(len(line) for line in ax.get_ylabel().splitlines()) <= MAX_LABEL
+
+
+@pytest.mark.parametrize(
+    ("errors", "title"), [((np.nan, 2e-6), "largest numerical error: 2 µm"), ((np.nan,) * 2, "")]
+)
+def test_a_map_states_errors_only_if_there_are_any(errors: tuple[float, float], title: str) -> None:
+    keys = [Variation("indenter.radius", "mm", ends) for ends in ((1.0, 2.0), (3.0,))]
+    ax = Figure().add_subplot()
+    values = np.full((2, 1, 1), 5e-6)
+    _draw_map(ax, SweptQuantity("approach", "m", values, np.reshape(errors, (2, 1, 1))), *keys)
+    assert ax.get_title() == title

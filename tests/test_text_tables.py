@@ -117,6 +117,16 @@ def test_rows_without_numbers_below_a_single_row_are_left_out(tmp_path: Path) ->
     assert [len(column) for column in read_columns(path, POINTS).values()] == [1, 1, 1]
 
 
+def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
+    """A run without friction writes profiles with heads of shear and no shear."""
+    path = tmp_path / "profiles.csv"
+    path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,,1.0\n", encoding="utf-8")
+    assert [*read_columns(path, MEASURED)] == ["x", "pressure"]
+    path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,3,1.0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="line 2 .* no finite number in the column"):
+        read_columns(path, MEASURED)
+
+
 @pytest.mark.parametrize("word", ["", "nan", "#N/A", "***"])
 def test_a_missing_value_is_filled_in_heights_alone(word: str, tmp_path: Path) -> None:
     path = tmp_path / "table.csv"

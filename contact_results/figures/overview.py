@@ -37,7 +37,8 @@ DOTS_PER_INCH = 90
 PANEL = (2.6, 2.55)
 PLACE = (3.85, 3.45)
 MARGIN = 0.65
-TITLE = 0.3  # height of the title above the panels [inch]
+TITLE = 0.4  # height of a title of two lines above the panels [inch]
+TITLE_TOP = 0.08  # space above the title [inch]
 # Places of the labels of both axes in sides of a panel, and their distances from it [point].
 LABELS = ((0.5, 0.0), (0.0, 0.5))
 LABEL_SHIFTS = ((0.0, -19.0), (-30.0, 0.0))
@@ -67,6 +68,7 @@ def overview(report: ResultReport, frame: MapFrame | None) -> Figure:
         fill(f"{title}: end of step {report.steps[-1].step}", 120 if field else 80),
         fontsize=9.0,
         parse_math=False,
+        y=1.0 - TITLE_TOP / height,
     )
     profile, zones, history, *stressed, numbers = (
         figure.add_axes(

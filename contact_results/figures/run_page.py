@@ -15,7 +15,7 @@ from contact_results.directory import file_names
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
 from contact_results.key_numbers import doubts_of, key_numbers
 from contact_results.result_report import ResultReport
-from contact_scene.reading.engineering_units import engineering_unit
+from contact_results.solvers import NAMES_IN_RESULTS, solver_of
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -136,13 +136,10 @@ def _write_html(path: Path, title: str, parts: Iterable[str]) -> None:
 
 
 def _setting_rows(result: Result) -> Iterator[tuple[str, str]]:
-    """Yield name and text of each setting of a run, such as solver, tolerance and cells."""
-    yield "solver", result.solver
+    """Yield name and text of each setting of a run, such as solver, grid and tolerance."""
+    yield "solver", NAMES_IN_RESULTS[result.solver]
+    yield from solver_of(result).describe_result(result)
     yield "tolerance of every residual", f"{result.tolerance:.3g}"
-    grid = getattr(result, "grid", None)
-    if grid is not None:
-        yield "cells", " × ".join(map(str, grid.cells))
-        yield "window", " × ".join(engineering_unit(w, "m").text(w) for w in grid.window)
     yield "increments", str(len(result.increments))
     for effect in result.plan.effects:
         yield effect.name, f"{'on' if effect.on else 'off'}: {effect.why}"

@@ -7,7 +7,7 @@ a file with the numbers of one use is read, or refused, in the same way as a fil
 import codecs
 import csv
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -142,7 +142,8 @@ def read_columns(
     """Read the columns with known heads, or chosen columns, from a text table, in SI units.
 
     The lowest line with a known head above the first row has the heads. A head is a name with a
-    unit, such as `force [N]`. Other columns are ignored, and empty rows at the end.
+    unit, such as `force [N]`. Other columns are ignored, as are columns with a known head but no
+    value, and empty rows at the end.
 
     path    path of the file
     names   accepted heads of each quantity
@@ -176,6 +177,9 @@ def read_columns(
     rows = list(zip(table.rows, table.lines, strict=True))
     while len(rows) > 1 and not rows[-1][1][1].strip(' \t",;'):
         rows.pop()
+    if chosen is None:
+        filled = {q: at for q, at in columns.items() if not _is_empty(at[0], table.rows)}
+        columns = filled or columns
     width = len(heads) + int(len(table.rows[0]) > len(heads) and table.ends_with_separator)
     for row, (position, line) in rows:
         place = f"line {position} of {shown(name)}"
@@ -197,6 +201,12 @@ def read_columns(
         quantity: factor * np.array([row[column] for row, _ in rows], dtype=np.float64)
         for quantity, (column, factor) in columns.items()
     }
+
+
+def _is_empty(column: int, rows: Iterable[Sequence[float | None]]) -> bool:
+    """Return true if the value of a column is missing in every row."""
+    values = [row[column] for row in rows if len(row) > column]
+    return all(value is not None and np.isnan(value) for value in values)
 
 
 def _known_columns(heads: list[str], names: ColumnNames, file: str) -> dict[str, tuple[int, float]]:

@@ -61,8 +61,9 @@ class Expectation:
         Raises Refused if there are no numbers to save.
         """
         from contact_results.directory.atomic_file import Refused
-        from slipstick.cli.changes import compare_with_file
+        from slipstick.cli.changes import print_comparison
         from slipstick.expected import expected_changes, save_expected
+        from verification.regression.change_row import Comparison
 
         found = self.source.with_numbers(numbers)
         if self.save is not None:
@@ -72,8 +73,8 @@ class Expectation:
             typer.echo(f"expected numbers in {self.save}")
         if self.expected is None or self.file is None:
             return ExitCode.PASS
-        rows = expected_changes(found, self.expected, self.file.name)
-        return compare_with_file(rows, self.file, f"{SAVE_EXPECTED} {self.file}")
+        rows = tuple(expected_changes(found, self.expected, self.file.name))
+        return print_comparison(Comparison(rows, self.file, f"{SAVE_EXPECTED} {self.file}"))
 
 
 def read_expectation(

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 
 from verification.judging.outcome import ChangeKind, CounterChange
 
 ABSENT = "–"
+COLUMNS = ("quantity", "run", "change", "was", "is", "moved by", "since", "remark")
+EMPTY = ("", ABSENT)
 
 # The worst first.
 RANK = {
@@ -61,6 +65,48 @@ class ChangeRow:
             f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
             f"at {self.since}{moved}{remark}"
         )
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Comparison of numbers with those that were saved in a file.
+
+    rows  changes, the worst first
+    file  file of the saved numbers
+    save  words that save numbers, such as "--save FILE"
+    """
+
+    rows: tuple[ChangeRow, ...]
+    file: Path
+    save: str
+
+    @property
+    def worse(self) -> bool:
+        """True if any number is worse or missing."""
+        return any(row.kind.regresses for row in self.rows)
+
+    @property
+    def verdict(self) -> str:
+        """Result in one line: counts of the changes, and the option that saves new numbers."""
+        kinds = Counter(row.kind for row in self.rows)
+        counts = ", ".join(f"{number} {kind}" for kind, number in kinds.items())
+        if self.worse:
+            return f"worse than {self.file}: {counts}"
+        if not self.rows:
+            return f"nothing has changed since {self.file}"
+        saving = f"{self.save} saves the present numbers"
+        return f"nothing is worse than {self.file}: {counts}; {saving}"
+
+
+def change_table(rows: Iterable[ChangeRow]) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    """Return headings and cells of a table of changes, without columns that are empty in all
+    rows."""
+    cells = [
+        (f"{r.case}/{r.name}", r.run, r.kind, r.was, r.now, r.moved, r.since, r.remark)
+        for r in rows
+    ]
+    kept = [k for k in range(len(COLUMNS)) if any(row[k] not in EMPTY for row in cells)]
+    return tuple(COLUMNS[k] for k in kept), tuple(tuple(row[k] for k in kept) for row in cells)
 
 
 def count_row(case: str, run: str, change: CounterChange, since: str) -> ChangeRow:

@@ -15,7 +15,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
@@ -42,6 +42,7 @@ MAX_TICKS = 8
 FEW_TICKS = 6
 DECADE = 10.0
 FEW_DECADES = 2.5  # with labels between powers of ten
+SHORT_TICKS = 4  # intervals of an axis with at most one label at these numbers
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 
 
@@ -110,8 +111,8 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
 def _label_decades(ax: Any, most: int, least: tuple[float, float]) -> None:
     """Print labels on the logarithmic axes of a panel at powers of ten.
 
-    A short axis has labels also at 2 and 5 times the powers. The y axis spans a decade at least, so
-    that equal errors do not look different.
+    A short axis has labels also at 2 and 5 times the powers, or at equal distances. The y axis
+    spans a decade at least, so that equal errors do not look different.
 
     ax     axes of matplotlib
     most   largest number of labels per axis
@@ -125,7 +126,12 @@ def _label_decades(ax: Any, most: int, least: tuple[float, float]) -> None:
                 low, high = middle / np.sqrt(ratio), middle * np.sqrt(ratio)
                 (ax.set_xlim if axis is ax.xaxis else ax.set_ylim)(low, high)
             parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
-            axis.set_major_locator(LogLocator(subs=parts, numticks=most))
+            powers = DECADE ** np.arange(np.floor(np.log10(low)), np.log10(high))
+            places = np.outer(powers, parts)
+            if np.count_nonzero((low <= places) & (places <= high)) > 1:
+                axis.set_major_locator(LogLocator(subs=parts, numticks=most))
+            else:
+                axis.set_major_locator(MaxNLocator(SHORT_TICKS))
             axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
             axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)

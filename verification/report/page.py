@@ -39,6 +39,7 @@ from verification.judging.outcome import (
     uncertainty_text,
     verdict_order_text,
 )
+from verification.regression.change_row import Comparison, change_table
 from verification.report.drawing import inline_svg
 from verification.report.file_names import PAGE, SHEETS
 from verification.report.summary_text import (
@@ -274,13 +275,18 @@ def row_texts(row: Row) -> tuple[str, ...]:
     )
 
 
-def render_sheet(judgement: Judgement) -> str:
+def render_sheet(judgement: Judgement, comparison: Comparison | None = None) -> str:
     """Render the judgement of a code on a challenge as a self-contained HTML page without
-    scripts."""
+    scripts.
+
+    comparison  comparison with a saved judgement of the code, or None
+    """
     page = environment().get_template("judgement.html")
+    changes = (_change_table(comparison),) if comparison and comparison.rows else ()
     return page.render(
         judgement=judgement,
-        tables=(_verdict_table(judgement), _level_table(judgement)),
+        comparison=comparison,
+        tables=(*changes, _verdict_table(judgement), _level_table(judgement)),
         charts=tuple(_error_charts(judgement)),
     )
 
@@ -293,6 +299,18 @@ def _verdict_table(judgement: Judgement) -> Table:
         note="On the finest level. Classes: A 1e-4, B 1e-3, C 1e-2 of what the error is divided "
         "by; a pass keeps clear of twice the uncertainty of the reference. An order is not known "
         f"where its 95 % interval is ± {ILLEGIBLE:g} or wider; more levels narrow it.",
+        units=NONE,
+    )
+
+
+def _change_table(comparison: Comparison) -> Table:
+    columns, rows = change_table(comparison.rows)
+    return Table(
+        title="Changes since the saved judgement, the worst first",
+        columns=columns,
+        rows=rows,
+        note="Outside: the error exceeds its bound. Dearer: more unknowns. Gone: no longer given. "
+        "Drift: another difference. U: the bound of the error.",
         units=NONE,
     )
 
@@ -323,7 +341,7 @@ def _error_charts(judgement: Judgement) -> list[Chart]:
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))
     seconds = {one.h: one.seconds for one in judgement.answers}
-    of = "Of the numbers and fields with the largest errors, each over its scale, against"
+    many = "the numbers and fields with the largest errors, each over its scale,"
     charts = []
     for name, title, against, label, by_h in (
         ("errors", "Errors by fineness", "the size h of a cell or element.", "h [m]", None),
@@ -337,6 +355,8 @@ def _error_charts(judgement: Judgement) -> list[Chart]:
             for r in fallen[:MAX_CURVES]
         ]
         if any(len(points) > 1 for _, points in lines):
-            caption = f"{of} {against}"
+            drawn = [quantity for quantity, points in lines if points]
+            of = many if len(drawn) > 1 else f"{drawn[0]}, over its scale,"  # without a legend
+            caption = f"Of {of} against {against}"
             charts.append(log_chart(name, title, caption, label, "error", point_curves(lines)))
     return charts

@@ -8,9 +8,10 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.changes import compare_with_file
+from slipstick.cli.changes import print_comparison
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
+from verification.regression.change_row import Comparison
 from verification.regression.cpu_time import (
     CPU_TIMES,
     Commands,
@@ -74,7 +75,9 @@ def cpu(
             accept_cpu_times(commands(scenes), made, because)
             typer.echo(f"CPU times in {CPU_TIMES}")
             return
-        rows = cpu_time_changes(commands(scenes), made, read_cpu_times())
-    code = compare_with_file(rows, Path(CPU_TIMES.name), "slipstick maintain cpu --accept")
+        rows = tuple(cpu_time_changes(commands(scenes), made, read_cpu_times()))
+    code = print_comparison(
+        Comparison(rows, Path(CPU_TIMES.name), "slipstick maintain cpu --accept")
+    )
     if code is not ExitCode.PASS:
         raise typer.Exit(code)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from contact_results.directory.atomic_file import Refused, atomic_file
-from slipstick.cli.changes import compare_with_file
+from slipstick.cli.changes import print_comparison
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional, refuse_if, refuse_unknown
 from slipstick.cli.terminal import print_table
@@ -30,6 +30,7 @@ from verification.challenge.solver_process import (
     SolverFailed,
     names_a_solver,
 )
+from verification.regression.change_row import Comparison
 from verification.report.page import COLUMNS, render_sheet, row_texts
 
 
@@ -75,7 +76,8 @@ def judge(
         optional(
             "--page",
             metavar="FILE",
-            help="Write the sheet as HTML to FILE, and badge.json to its folder.",
+            help="Write the sheet as HTML to FILE, with the comparison of --against, and "
+            "badge.json to its folder.",
         ),
     ] = None,
     grade: Annotated[
@@ -139,19 +141,17 @@ def judge(
     for quantity, step, required in found.omitted:
         typer.echo(f"omitted: {quantity}, step {step}{' (required)' if required else ''}")
     typer.echo(found.line)
-    if page is not None:
-        badge = page.parent / "badge.json"
-        for path, text in ((page, render_sheet(found)), (badge, found.badge())):
-            with atomic_file(path) as unfinished:
-                unfinished.write_text(text, encoding="utf-8")
-        typer.echo(f"sheet: {page}")
+    comparison = None
+    try:
+        if against is not None:
+            comparison = _comparison(found.challenge.name, found, against)
+    finally:  # The page is written without a comparison if the file lacks the case.
+        if page is not None:
+            _write_sheet(page, found, comparison)
     if save is not None:
         save_judgement(found, save)
         typer.echo(f"saved: {save}")
-    worse = ExitCode.PASS
-    if against is not None:
-        rows = judgement_changes(found.challenge.name, found, against)
-        worse = compare_with_file(rows, against, f"--save {against}")
+    worse = ExitCode.PASS if comparison is None else print_comparison(comparison)
     # A lost verdict is inconclusive, too: what is worse precedes.
     codes = (
         found.exit_code(partial=partial),
@@ -160,6 +160,20 @@ def judge(
     )
     if any(codes):
         raise typer.Exit(next(filter(None, codes)))
+
+
+def _comparison(case: str, found: Judgement | None, against: Path) -> Comparison:
+    """Compare a judgement, or None of an unsolved challenge, with the saved one."""
+    return Comparison(tuple(judgement_changes(case, found, against)), against, f"--save {against}")
+
+
+def _write_sheet(page: Path, found: Judgement, comparison: Comparison | None) -> None:
+    """Write the page of a judgement, and badge.json beside it."""
+    badge = page.parent / "badge.json"
+    for path, text in ((page, render_sheet(found, comparison)), (badge, found.badge())):
+        with atomic_file(path) as unfinished:
+            unfinished.write_text(text, encoding="utf-8")
+    typer.echo(f"sheet: {page}")
 
 
 def _judge_function(
@@ -197,8 +211,8 @@ def _judge_function(
     except CannotDo as reason:
         typer.echo(f"{case} | {name} | cannot: {reason}")
         code = ExitCode.INCONCLUSIVE if strict else ExitCode.PASS
-        if against is not None and (lost := judgement_changes(case, None, against)):
-            code = compare_with_file(lost, against, f"--save {against}")
+        if against is not None and (lost := _comparison(case, None, against)).rows:
+            code = print_comparison(lost)
         raise typer.Exit(code) from None
     except SolverFailed as reason:
         typer.echo(f"{case}: {name} {reason}", err=True)

@@ -89,10 +89,9 @@ def run(
         str | None,
         optional(
             "--inputs",
-            metavar="KEY=VALUE±DEVIATION,...",
-            help="State the uncertainty by inputs with these values and standard deviations, such "
-            "as 'body.layers[1].thickness=388±20 um, friction.coefficient=.1±.01' (or +-). Each "
-            "takes two more solves.",
+            metavar="INPUTS",
+            help="State the uncertainty by inputs with standard deviations, such as "
+            "friction.coefficient=.1±.01 (or +-), separated by commas. Each takes two more solves.",
         ),
     ] = None,
 ) -> None:

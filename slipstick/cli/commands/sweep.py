@@ -60,15 +60,15 @@ def sweep(
         typer.Option(
             "--vary",
             metavar="KEY=VALUES",
-            help="Spaced values a..b [unit] [log] N, such as body.layers[1].thickness=1..64 um log "
-            "4, or a sample normal(mean,deviation) [unit] N. The option may be repeated.",
+            help="Spaced values a..b [unit] [log] N, such as indenter.radius=9..18 mm log 4, "
+            "or a sample normal(mean,deviation) [unit] N. The option may be repeated.",
         ),
     ],
     get: Annotated[
         str,
         typer.Option(
             "--get",
-            metavar="NAME,NAME,...",
+            metavar="NAME,...",
             help="Scalars of summary.json at the end of the last step, vectors by component, or "
             "largest stresses MEASURE@REGION: max_principal@body, interface_shear@1.",
         ),
