@@ -282,8 +282,9 @@ def _reference_maxima(
 ) -> Mapping[Key, float] | None:
     """Find the largest stresses of a body by the radial solver, by region and measure.
 
-    The result is None with shear, with infinite pressure, and if the pressure is not that of a body
-    of revolution that is pressed without friction.
+    The result is None with shear, with infinite pressure, with a bulk strain that is not equal in
+    all directions, and if the pressure is not that of a body of revolution that is pressed without
+    friction.
 
     state     bodies and surface tractions of another solver
     found     largest stresses of this solver
@@ -295,13 +296,13 @@ def _reference_maxima(
     alone = pressing_alone(scene)
     if alone is None or not scene.indenter.is_of_revolution:
         return None
-    load = alone.loading[state.step - 1]
+    load = alone.loading[state.step - 1].model_copy(update={"bulk_strain": state.strain})
     measures = {extreme.measure for extreme in found}
     try:
         result = radial.solve(alone.model_copy(update={"loading": (load,)}))
         known = state_of_result(result, None)
         # The solver merges layers of equal constants; the measures of their interfaces are kept.
-        known = replace(known, strain=state.strain, body=state.body, indenter=state.indenter)
+        known = replace(known, body=state.body, indenter=state.indenter)
         field = OnDisc(known, indenter, measures=measures).stress()
     except (SolverError, NoSuchState):
         return None

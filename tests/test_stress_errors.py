@@ -98,6 +98,20 @@ def test_the_tension_at_a_coating_pressed_without_friction_is_known(
     assert abs(value - exact) <= size(error) <= widest * exact
 
 
+def test_a_strain_of_one_direction_is_not_compared_with_a_contact_of_revolution() -> None:
+    """The tension at the edge along the pull: that of Huber (1904) and that of the strain."""
+    pull = 1e-3
+    ball = paraboloid(steel(0.3))
+    posed = scene(
+        {**PRESS, "bulk_strain": (0.0, pull, 0.0)}, indenter=ball, body=steel(0.3), friction=None
+    )
+    value, error = largest_tension(package.solve(posed, "semi-analytical", cells(32)))
+    pressed = hertz(poisson_ratio=0.3).peak_pressure * (1 - 2 * 0.3) / 3
+    exact = pressed + pull * YOUNG / (1 - 0.3**2)
+    assert error.status is ErrorStatus.ESTIMATED
+    assert abs(value - exact) <= size(error) <= 0.05 * exact
+
+
 def test_a_stress_below_a_tip_is_not_converged_near_the_surface() -> None:
     posed = scene(PRESS, indenter=Cone(slope_angle=0.02, material=RIGID), friction=None)
     result = package.solve(posed, "semi-analytical", cells(24))
