@@ -123,7 +123,7 @@ def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
     path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,,1.0\n", encoding="utf-8")
     assert [*read_columns(path, MEASURED)] == ["x", "pressure"]
     path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,3,1.0\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="line 2 .* no finite number in the column"):
+    with pytest.raises(ValueError, match=r"line 2 .* no finite number in the column"):
         read_columns(path, MEASURED)
 
 
