@@ -24,6 +24,7 @@ release = program_version()
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+smartquotes_action = "qe"  # the two hyphens of an option are no dash
 exclude_patterns = ["made/*.md", "__pycache__"]
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"

@@ -8,9 +8,11 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from runpy import run_path
 
 import pytest
 from command import slipstick, succeeded
+from docutils.utils.smartquotes import smartyPants
 
 from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.cases.catalogue import CASES
@@ -57,6 +59,13 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         assert PLACEHOLDER.search(rest[0]) or rest[0] in STUDIES
     if rest and name == "verify" and not rest[0].startswith("-"):
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
+
+
+def test_the_hyphens_of_an_option_do_not_become_a_dash(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "path", [*sys.path])  # which the settings extend
+    settings = run_path(str(ROOT / "docs" / "conf.py"))
+    text = "the option --set"
+    assert smartyPants(text, settings.get("smartquotes_action", "qDe")) == text
 
 
 @pytest.mark.parametrize("name", ALL_COMMANDS)

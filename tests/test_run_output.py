@@ -24,7 +24,9 @@ from contact_results.figures.style import figure_style
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.result_report import ResultReport
-from contact_scene.discretisation import FiniteElementDiscretisation
+from contact_scene import read_scene_file
+from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from semi_analytical.fields import Result
 from slipstick import solve
 
@@ -133,6 +135,23 @@ def test_a_page_names_the_solver_and_its_fineness(name, settings, tmp_path) -> N
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     for row, text in ({"solver": name} | settings).items():
         assert re.search(f'<th scope="row">{row}</th><td>[^<]*{text}', page)
+
+
+def test_ticks_and_key_numbers_of_an_overview_fit() -> None:
+    """Ticks on the narrow section of a thick stack of layers, and a number of 12 digits."""
+    layered = read_scene_file(ROOT / "docs" / "gallery" / "road.toml").scene
+    result = solve(layered, discretisation=SurfaceDiscretisation(cells=(24, 24)))
+    errors = [{"contact_radius": StatedError(error=5e-11, parts={}, status="estimated")}]
+    report = replace(ResultReport.of(result), errors=StatedErrors(tuple(errors), (), (0.0,)))
+    with figure_style():
+        figure: Any = overview(report, MapFrame.around_contact(report))
+        figure.draw_without_rendering()
+        (section,) = (ax for ax in figure.axes if ax.get_ylabel() == "depth z (m)")
+        boxes = [label.get_window_extent() for label in section.get_xticklabels()]
+        texts = [text.get_window_extent() for ax in figure.axes for text in ax.texts]
+    assert len(boxes) == 2
+    assert boxes[0].x1 < boxes[1].x0
+    assert max(box.x1 for box in texts) < figure.bbox.width
 
 
 def test_a_map_fills_its_panel_whatever_the_size_of_the_contact() -> None:

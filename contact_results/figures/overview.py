@@ -44,6 +44,8 @@ LABELS = ((0.5, 0.0), (0.0, 0.5))
 LABEL_SHIFTS = ((0.0, -19.0), (-30.0, 0.0))
 # Largest number of intervals between ticks.
 MAX_INTERVALS = 5
+MAX_LETTERS = 44  # of a line of key numbers: to the edge of the picture
+LEAST_SHARE = 0.3  # of a panel's side, below which an axis of equal scales has two ticks
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
 
 
@@ -158,6 +160,18 @@ def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
             axis.set_label_coords(*place, offset_copy(ax.transAxes, figure, *shift, "points"))
             if isinstance(axis.get_major_locator(), AutoLocator):
                 axis.set_major_locator(MaxNLocator(MAX_INTERVALS, steps=[1, 2, 5, 10]))
+                if _drawn_share(ax, axis) < LEAST_SHARE:
+                    low, high = sorted(axis.get_view_interval())
+                    first, *_, last = (t for t in axis.get_majorticklocs() if low <= t <= high)
+                    axis.set_ticks((first, last))
+
+
+def _drawn_share(ax: Any, axis: Any) -> float:
+    """Return the share of its side of a panel that an axis takes, below 1 with equal scales."""
+    if ax.get_aspect() == "auto":
+        return 1.0
+    high = float(ax.get_data_ratio())
+    return min(1.0, 1.0 / high if axis is ax.xaxis else high)
 
 
 def _write_numbers(ax: Any, report: ResultReport) -> None:
@@ -165,4 +179,5 @@ def _write_numbers(ax: Any, report: ResultReport) -> None:
     lines = [f"status: {report.steps[-1].status.value}"]
     lines += [f"{name}: {text}" for name, text in key_numbers(report.steps, report.end_errors)]
     lines += [] if report.end_errors else ["errors not stated"]
-    ax.text(0.0, 1.1, "\n".join(lines), va="top", linespacing=1.35, parse_math=False)
+    text = "\n".join(fill(line, MAX_LETTERS, subsequent_indent="    ") for line in lines)
+    ax.text(0.0, 1.1, text, va="top", linespacing=1.35, parse_math=False)
