@@ -17,6 +17,7 @@ from verification.cases.catalogue import choose
 from verification.judging.case import AnyRun, Case, Level, Run, SectionRun
 
 FEWEST = 8  # cells, elements per radius and rings
+INCREMENTS = 2  # of a load step
 MAX_RUNS = 10  # that differ within a case
 ROUND_OFF = 1e-6  # relative to the scale of an error
 SLOW = ("radial_turning",)  # stresses on the whole circle, which take 35 s
@@ -30,7 +31,7 @@ def few(count: int) -> int:
 def coarse(run: AnyRun) -> AnyRun:
     """The same problem with few cells, elements or rings, and increments."""
     steps = [
-        step.model_copy(update={"increments": max(2, round(step.increments ** (1 / 3)))})
+        step.model_copy(update={"increments": min(INCREMENTS, step.increments)})
         if step.increments
         else step
         for step in run.scene.loading
