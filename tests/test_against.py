@@ -259,6 +259,20 @@ def measured_profile(place: Path, noise: float = 0.0) -> tuple[Path, np.ndarray]
     return table(place / "p.csv", **{"x [m]": x, "p [Pa]": scattered}), x
 
 
+@pytest.mark.parametrize("half_width", [0.2, 0.39])
+@pytest.mark.parametrize("count", [24, 25])
+def test_the_error_of_a_profile_covers_means_over_cells(
+    place: Path, count: int, half_width: float
+) -> None:
+    """The exact pressure, whose peak the cells know better than its values between them."""
+    (place / "pressed.toml").write_text(PRESSED, encoding="utf-8")
+    x = np.linspace(-half_width, half_width, 41) * 1e-3
+    exact = table(place / "exact.csv", **{"x [m]": x, "p [Pa]": hertz_pressure(1000.0, x)})
+    cells = f"semi_analytical.cells=[{count}, {count}]"
+    for number in against(place, exact, "pressed.toml", "--set", cells)["numbers"].values():
+        assert number["gap"] <= number["error"] <= 0.1 * number["measured"]
+
+
 def test_an_input_is_identified_with_both_uncertainties(place: Path) -> None:
     """The slopes of Hertz's profile by the force give the standard deviation of the force."""
     noise = 1e7
