@@ -70,10 +70,8 @@ def below_circle(
 
 
 def _count_intervals(smallest: Array) -> Array:
-    """Return the least number of intervals that grow from `smallest` to 1 in a constant ratio.
-
-    Near a power of the ratio, where searches place points, round-off does not change the number.
-    """
+    """Return the least number of intervals that grow from `smallest` to 1 in a constant ratio."""
+    # Searches place points near powers of the ratio, where round-off must not change the number.
     return np.ceil(1 - np.log(smallest) / np.log(WIDER) - ROUND_OFF)
 
 
