@@ -122,9 +122,8 @@ def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "profiles.csv"
     path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,,1.0\n", encoding="utf-8")
     assert [*read_columns(path, MEASURED)] == ["x", "pressure"]
-    for first, second in (("", "3"), ("nan", "nan"), ("#DIV/0!", "")):
-        rows = f"0.0,{first},2.0\n1.0,{second},1.0\n"
-        path.write_text(f"x [m],shear [Pa],pressure [Pa]\n{rows}", encoding="utf-8")
+    for rows in ("0,,2\n1,3,1", "0,nan,2\n1,nan,1", "0,#DIV/0!,2\n1,,1", ",,\n,,"):
+        path.write_text(f"x [m],shear [Pa],pressure [Pa]\n{rows}\n", encoding="utf-8")
         with pytest.raises(ValueError, match=r"line 2 .* no finite number in the column"):
             read_columns(path, MEASURED)
 
