@@ -45,7 +45,7 @@ def test_a_record_depends_on_what_its_modules_import(
 
 def test_imports_are_found_in_every_form(tmp_path: Path) -> None:
     path = tmp_path / "imports.py"
-    of_a_function = "from contact_solver import (\n        krylov,\n        shear as zones,\n    )"
+    of_a_function = "from contact_solver import (\n krylov,  # (1)\n shear as zones,\n )"
     path.write_text(f"import radial.history as model\n\n\ndef f():\n    {of_a_function}\n")
     names = ("contact_solver/{}", "krylov", "shear"), ("radial/{}", "history")
     expected = {f.format(f"{m}.py") for f, *modules in names for m in ("__init__", *modules)}

@@ -23,7 +23,8 @@ from verification.judging.outcome import (
 )
 from verification.report.file_names import SHEETS
 from verification.report.page import MAX_CHARTS, cases_by_physics, render_page, render_sheets
-from verification.report.summary_text import claims_line, features, power_text
+from verification.report.summary_text import OUTSIDE, claims_line, features, power_text
+from verification.report.validity import Tested
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -114,3 +115,13 @@ def test_a_quick_page_stays_small() -> None:
     full = render_page(report.model_copy(update={"level": "full"}))
     assert full.count("<svg") == 14
     assert full.count("1e-9") == 300
+
+
+def test_round_off_does_not_choose_between_equal_errors_of_the_validity_table() -> None:
+    case: Any = None
+    verdicts: Any = [
+        SimpleNamespace(reference_kind=min(OUTSIDE), error=error)
+        for error in (0.012, 0.012 + 1e-15)
+    ]
+    first, second = (Tested(1.0, case, verdict).error_rank for verdict in verdicts)
+    assert first == second

@@ -122,9 +122,10 @@ def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "profiles.csv"
     path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,,1.0\n", encoding="utf-8")
     assert [*read_columns(path, MEASURED)] == ["x", "pressure"]
-    path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,3,1.0\n", encoding="utf-8")
-    with pytest.raises(ValueError, match=r"line 2 .* no finite number in the column"):
-        read_columns(path, MEASURED)
+    for rows in ("0,,2\n1,3,1", "0,nan,2\n1,nan,1", "0,#DIV/0!,2\n1,,1", ",,\n,,"):
+        path.write_text(f"x [m],shear [Pa],pressure [Pa]\n{rows}\n", encoding="utf-8")
+        with pytest.raises(ValueError, match=r"line 2 .* no finite number in the column"):
+            read_columns(path, MEASURED)
 
 
 @pytest.mark.parametrize("word", ["", "nan", "#N/A", "***"])

@@ -7,7 +7,7 @@ a file with the numbers of one use is read, or refused, in the same way as a fil
 import codecs
 import csv
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -142,8 +142,8 @@ def read_columns(
     """Read the columns with known heads, or chosen columns, from a text table, in SI units.
 
     The lowest line with a known head above the first row has the heads. A head is a name with a
-    unit, such as `force [N]`. Other columns are ignored, as are columns with a known head but no
-    value, and empty rows at the end.
+    unit, such as `force [N]`. Other columns are ignored, as are columns with a known head and
+    blank fields alone, and empty rows at the end.
 
     path    path of the file
     names   accepted heads of each quantity
@@ -178,7 +178,7 @@ def read_columns(
     while len(rows) > 1 and not rows[-1][1][1].strip(' \t",;'):
         rows.pop()
     if chosen is None:
-        filled = {q: at for q, at in columns.items() if not _is_empty(at[0], table.rows)}
+        filled = {q: at for q, at in columns.items() if not _is_blank(at[0], table)}
         columns = filled or columns
     width = len(heads) + int(len(table.rows[0]) > len(heads) and table.ends_with_separator)
     for row, (position, line) in rows:
@@ -203,10 +203,10 @@ def read_columns(
     }
 
 
-def _is_empty(column: int, rows: Iterable[Sequence[float | None]]) -> bool:
-    """Return true if the value of a column is missing in every row."""
-    values = [row[column] for row in rows if len(row) > column]
-    return all(value is not None and np.isnan(value) for value in values)
+def _is_blank(column: int, table: TextTable) -> bool:
+    """Return true if the fields of a column are blank in every row, not "nan" or a failed value."""
+    rows = (_split(line, table.separator) for _, line in table.lines)
+    return all(len(row) > column and not row[column].strip(' \t"') for row in rows)
 
 
 def _known_columns(heads: list[str], names: ColumnNames, file: str) -> dict[str, tuple[int, float]]:

@@ -31,8 +31,8 @@ EXPORTS = ("verification/__init__.py", "slipstick/__init__.py")
 RESOLVED = re.compile(r'"([\w.]+):\w+"')
 # A catalogue imports the modules of its package by name.
 BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
-# Import statements as the formatter writes them. Other lines that look like one, and the words of
-# comments, name no modules of the project.
+# Import statements as the formatter writes them, without comments. Other lines that look like one
+# name no modules of the project.
 IMPORT = re.compile(r"^ *(?:from ([\w.]+) import (\([^)]*\)|.*)|import (.*))", re.MULTILINE)
 
 UNREAD = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
@@ -100,7 +100,7 @@ def _imported_files(path: str) -> tuple[str, ...]:
     text = (ROOT / path).read_text(encoding="utf-8")
     names = {f for name in BY_NAME.findall(text) for f in _module_files(name, whole=True)}
     names |= {f for name in RESOLVED.findall(text) for f in _module_files(name)}
-    for package, objects, modules in IMPORT.findall(text):
+    for package, objects, modules in IMPORT.findall(re.sub("#.*", "", text)):
         prefix = f"{package}." if package else ""
         for name in re.findall(r"(?<! as )\b[\w.]+", objects or modules):
             names |= {*_module_files(prefix + name)}
