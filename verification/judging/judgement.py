@@ -263,7 +263,9 @@ def judge_worst(
     where    place of the number in the run, by label of the run
     """
     ratio = {
-        label: 0.0 if value < ROUNDING else value / allowed(case.run(label))
+        label: 0.0
+        if value < min(ROUNDING, allowed(case.run(label)))
+        else value / allowed(case.run(label))
         for label, value in found.items()
     }
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
