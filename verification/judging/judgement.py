@@ -262,12 +262,13 @@ def judge_worst(
     allowed  function from a run to its accepted value
     where    place of the number in the run, by label of the run
     """
-    ratio = {
-        label: 0.0
-        if value < min(ROUNDING, allowed(case.run(label)))
-        else value / allowed(case.run(label))
-        for label, value in found.items()
-    }
+
+    def share(label: str) -> float:
+        """Number over its accepted value; 0 if it is round-off."""
+        limit = allowed(case.run(label))
+        return 0.0 if found[label] < min(ROUNDING, limit) else found[label] / limit
+
+    ratio = {label: share(label) for label in found}
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
     said = meaning.format(runs=len(found), where=where.get(worst, ""))
     return _judge_zero(name, said, worst, found[worst], source, allowed(case.run(worst)), because)
