@@ -21,10 +21,10 @@ from verification.judging.outcome import (
     Verdict,
     error_text,
 )
+from verification.report import validity
 from verification.report.file_names import SHEETS
 from verification.report.page import MAX_CHARTS, cases_by_physics, render_page, render_sheets
 from verification.report.summary_text import OUTSIDE, claims_line, features, power_text
-from verification.report.validity import Tested
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -123,5 +123,5 @@ def test_round_off_does_not_choose_between_equal_errors_of_the_validity_table() 
         SimpleNamespace(reference_kind=min(OUTSIDE), error=error)
         for error in (0.012, 0.012 + 1e-15)
     ]
-    first, second = (Tested(1.0, case, verdict).error_rank for verdict in verdicts)
+    first, second = (validity.Tested(1.0, case, verdict).error_rank for verdict in verdicts)
     assert first == second
