@@ -161,8 +161,9 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
         step = step or count
         return _compare_profiles(_rows_of_step(table, step, count), run, step)
     raise NothingToCompare(
-        f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
-        "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
+        f"got values in the columns {', '.join(table) or 'none'}, expected shift or actuator_shift "
+        "with T (a loop), or x with p or q (a profile); write heads such as 'shift [um]' and "
+        "'T [N]'"
     )
 
 

@@ -439,7 +439,9 @@ def _read_points(
         raise typer.BadParameter(f"--at: {error}") from None
     missing = ", ".join(POINTS.keys() - columns.keys())
     if missing:
-        raise typer.BadParameter(f"--at {path}: got no column {missing}, expected x, y and z")
+        raise typer.BadParameter(
+            f"--at {path}: got no column {missing} with values, expected x, y and z"
+        )
     return [
         (x, y, level)
         for x, y, z in zip(*(columns[name].tolist() for name in POINTS), strict=True)
