@@ -375,8 +375,7 @@ def _reach_of_edge(state: LoadedBodies, near: float) -> float:
     across = state.radial if state.on_rings else "x"
     if not state.of_strips and (state.on_rings or pressure.shape[1:] != (1,)):
         return inf
-    # Cell centres lie at this distance: round-off must not decide about them.
-    return float(np.max(np.abs(state.axes[across][pressure.ravel() > 0]))) + (1 + 1e-9) * near
+    return float(np.max(np.abs(state.axes[across][pressure.ravel() > 0]))) + near
 
 
 def _largest_by_place(
