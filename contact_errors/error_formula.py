@@ -366,10 +366,8 @@ class SolvedRun:
         if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
             # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
             return build_stated_error(parts, HIDDEN if name in AT_EDGES else None)
-        finest = min(
-            (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD), default=1.0
-        )
-        finest = min(1.0, finest)
+        by_spread = (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD)
+        finest = min([1.0, *by_spread])
         reason = features.unresolved(name, finest) or (None if small else TOO_LARGE)
         if name == PEAK:
             reason = self._old_cusp(step, finest) or reason

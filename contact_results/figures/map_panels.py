@@ -34,8 +34,8 @@ MARGIN = 1.15  # half side of a map, relative to the extent of the contact
 
 RINGS_ACROSS = 121  # cells along a side; odd, so that the axis is a cell centre
 RINGS_MARGIN = 1.3  # half side of the cells, relative to the largest contact radius
-# Interpolated truth above which a cell counts as true. Cells may lie in the middle between two
-# rings, where round-off must not decide.
+# Value between 0 (false) and 1 (true) above which a cell counts as true. Cells may lie in the
+# middle between two rings, where round-off must not decide.
 HALF = 0.5 + 1e-9
 
 
