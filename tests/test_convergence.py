@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from verification.convergence.observed_order import (
@@ -63,11 +61,11 @@ def test_order_and_limit_of_a_power_law_are_exact(order: float, sizes: np.ndarra
     assert fit.uncertainty < 1e-3 * TERM * sizes[-1] ** order
 
 
-@on_both_grids
-@pytest.mark.parametrize("order", [1.0, 1.5])
-def test_the_next_term_does_not_hide_the_order(order: float, sizes: np.ndarray) -> None:
-    fit = refined(TERM * sizes**order + TERM * sizes**2, order, sizes)
-    assert known(fit).keeps(order, allowance=0.2)
+@pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
+def test_the_uncertainty_of_a_limit_covers_the_next_term(order: float) -> None:
+    error = TERM * GRIDS**order * (1 + 0.5 * GRIDS)
+    fit = refined(error, order, GRIDS)
+    assert abs(fit.limit - EXACT) <= fit.uncertainty
 
 
 @pytest.mark.parametrize(
@@ -101,27 +99,6 @@ def test_a_claimed_order_is_reached_as_far_as_it_is_known(order, margin, reached
     assert ObservedOrder(order, 1.2 * margin, margin).reaches(2.0) is reached
 
 
-@given(
-    st.floats(0.0, 4.0), st.floats(0.0, 0.25), st.floats(0.5, 1.0), st.sampled_from([1.0, 1.5, 2.5])
-)
-def test_no_order_that_passes_would_pass_if_it_were_lower_by_three_tenths(
-    order: float, half_width: float, part: float, promised: float
-) -> None:
-    def kept(order: float) -> bool | None:
-        return ObservedOrder(order, half_width, part * half_width).keeps(promised)
-
-    assert not (kept(order) and kept(order - 0.3))
-
-
-def test_a_verdict_on_a_kept_order_is_right_19_times_of_20(rng: np.random.Generator) -> None:
-    """At the verge of what is allowed, 0.1 below: passed by chance once in twenty."""
-    passed = share(
-        rng,
-        lambda e: observed_order(SIZES, TERM * SIZES**1.4 * np.exp(0.05 * e)).keeps(1.5) is True,
-    )
-    assert 0.02 < passed < 0.08
-
-
 @on_both_grids
 def test_a_planted_floor_is_seen(sizes: np.ndarray) -> None:
     """Errors that stop falling at nine times the finest: no order is confirmed."""
@@ -140,21 +117,6 @@ def test_interval_of_the_order_covers_the_truth(rng: np.random.Generator) -> Non
     assert 0.93 <= share(rng, covered) <= 0.97
 
 
-@pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
-def test_the_limit_beats_the_finest_level_and_its_uncertainty_covers_the_rest(
-    order: float, rng: np.random.Generator
-) -> None:
-    def judge(scatter: Array) -> tuple[bool, bool]:
-        error = TERM * SIZES**order * (1 + 0.05 * scatter) + 0.5 * TERM * SIZES ** (order + 1)
-        fit = refined(error, order)
-        left = abs(fit.limit - EXACT)
-        return left < abs(error[-1]), left <= 2 * fit.uncertainty
-
-    better, covered = share(rng, judge, 200)
-    assert better > 0.97
-    assert covered > 0.95
-
-
 def test_a_value_that_does_not_change_has_no_order() -> None:
     fit = refined(np.zeros(6), 2.0)
     assert fit.observed is None
@@ -167,36 +129,11 @@ def test_a_value_that_does_not_change_has_no_order() -> None:
 LEVELS = np.array([1 / n for n in (32, 42, 56, 74, 98, 128)])
 
 
-def test_band_contains_the_true_line(rng: np.random.Generator) -> None:
-    """At the ends of the levels and in their middle, in 95 % of the trials."""
-    sizes = LEVELS[[0, 2, -1]]
-
-    def covered(scatter: Array) -> Array:
-        low, high = error_line(LEVELS, LEVELS**1.5 * np.exp(0.1 * scatter)).band(sizes)
-        return (low <= sizes**1.5) & (sizes**1.5 <= high)
-
-    shares = share(rng, covered)
-    assert np.all((shares > 0.93) & (shares < 0.97))
-
-
 def test_errors_of_one_size_count_by_their_root_mean_square() -> None:
     assert by_size([2.0, 1.0, 2.0, 1.0], [3.0, 1.0, -4.0, 1.0]) == (
         [2.0, 1.0],
         [pytest.approx(12.5**0.5), 1.0],
     )
-
-
-@pytest.mark.parametrize("sizes", [LEVELS, LEVELS[[0, 2, -1]]], ids=["six levels", "three"])
-def test_uncertainty_covers_the_discretisation_error(
-    sizes: np.ndarray, rng: np.random.Generator
-) -> None:
-    """Three levels have no two ranges that could disagree: there the scatter tells."""
-
-    def covered(scatter: Array) -> bool:
-        values = 1 + sizes**2 * (1 + 0.3 * scatter[: len(sizes)])
-        return abs(values[-1] - 1) <= 2 * numerical_uncertainty(sizes, values, 2.0)
-
-    assert share(rng, covered, 2000) > 0.95
 
 
 def test_uncertainty_covers_an_error_that_has_no_order_on_the_coarser_levels() -> None:
@@ -263,3 +200,5 @@ def test_intervals_of_three_levels_are_those_by_hand() -> None:
     assert line.observed.half_width == pytest.approx(two_sided * sqrt(3) / log(2))
     assert line.observed.margin == pytest.approx(one_sided * sqrt(3) / log(2))
     assert line.reach == pytest.approx(two_sided * sqrt(2))
+    low, high = line.band(THREE_LEVELS[-1:])
+    assert np.log(high / low) == pytest.approx(2 * two_sided * sqrt(5))

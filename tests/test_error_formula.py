@@ -1,7 +1,5 @@
 """Tests of the formula of stated errors: parts, sizes, orders, and numbers that need more cells."""
 
-import ast
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -18,7 +16,6 @@ from contact_scenes import (
 )
 from error_scenes import size
 
-import contact_errors
 from contact_errors.error_formula import (
     Comparison,
     SolvedRun,
@@ -283,44 +280,3 @@ def test_components_of_a_vector_share_one_size() -> None:
 )
 def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
     assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
-
-
-def test_constants_are_those_that_are_explained() -> None:
-    """A new constant in the package, or where a solver describes its discretisation, needs a
-    derivation, and an entry here: no quantity and no kind of scene has a constant of its own.
-    Functions have units and round-off alone."""
-    found, within = set(), set()
-    root = Path(contact_errors.__file__).parents[1]
-    features = root / "contact_scene" / "contact_features.py"
-    for path in (*root.glob("contact_errors/*.py"), *root.glob("*/discretised.py"), features):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in tree.body:
-            if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
-                target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-                found |= {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
-            else:
-                within |= numbers_in(node)
-    assert found == set(CONSTANTS.split())
-    assert within <= {0, 0.5, 1, 2, 3, 4, 6, 10, 30, 1e-9, 1e-3}
-
-
-def numbers_in(node: ast.AST) -> set[float]:
-    parts = (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
-    return {value for value in parts if type(value) in (int, float)}
-
-
-# Of the formula, the coarse solves, the refinement and the cost estimate.
-CONSTANTS = """
-SPREADS BELIEVED SMOOTH EDGE ROOT PER_TOLERANCE LARGEST_SHARE REFERENCE_PRECISION ORDERS LIMITS
-FITTED_STICK FITTED_SLIP NARROWEST STICK_SIZES ROUND_OFF PRECISION HIGHEST
-
-SHARES SHARES_OF_SMALL SMALL FEW MANY PER_RADIUS NEGLIGIBLE ROOM MAX_ENLARGEMENTS FEWEST_ELEMENTS
-SMALLEST_BOX FEWEST_HARMONICS LARGEST_OVERLAP LINEAR NEAR COARSE WIDER THICKNESS STICK OF_FINER
-OF_ANOTHER_FIT OF_PARABOLA MORE_RINGS EDGE_PRECISION FINENESS UNIFORM_SPREAD
-
-SPARE DOUBT FURTHEST MAX_AT_ONCE LEAST_AT_ONCE UNCONVERGED MAX_ROUNDS MAX_WORSE FIRST_CELLS
-FIRST_PATH_ACCURACY MAX_CELLS LEAST_TOLERANCE MAX_DOUBLINGS DOUBLING FIRST_ELEMENTS MAX_ELEMENTS
-MAX_HARMONICS LEAST_OVERLAP LARGEST_BOX FIRST_FINENESS MAX_FINENESS
-
-EXPONENT CELL_OVERHEAD ELEMENT_OVERHEAD RING_OVERHEAD SET_UP_INCREMENTS INCREMENTS STEPS MAX_STEPS
-"""
