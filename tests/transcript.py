@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import multiprocessing
 import re
 import shlex
 import shutil
@@ -41,6 +42,7 @@ from verification.running.case_pool import ThisProcess
 FOLDER = Path(__file__).with_name("transcripts")
 INPUTS = (".toml", ".csv", ".py")
 LEFT_OUT = (".pyc", ".npy")  # files that are not text and that no command writes
+FORK: Any = multiprocessing.get_context("fork")
 SHOWN = 12  # values of a column that are shown one by one; of a longer one, as many samples
 # Allowed difference, relative to a number and to the largest number of its line.
 RELATIVE = 1e-5
@@ -126,6 +128,8 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
         stack.enter_context(patch("slipstick.tables.frictional.PATH_INCREMENTS", 12))
         for module in ("figure_files", "style"):
             stack.enter_context(patch(f"contact_results.figures.{module}.save", _write_figure))
+        # Another interpreter would take a second to import what a function needs.
+        stack.enter_context(patch("multiprocessing.get_context", lambda kind: FORK))
         pool = "verification.running.case_pool.LocalWorkers"
         stack.enter_context(patch(pool, lambda processes: ThisProcess()))
         try:
