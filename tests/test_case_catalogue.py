@@ -2,18 +2,15 @@
 
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
-import numpy as np
 import pytest
 
 from contact_scene import read_scene_file
 from verification.cases.catalogue import CASES, choose
-from verification.cases.fretting import STATES, loading_history_chart, paper_fretting_loop
+from verification.cases.fretting import paper_fretting_loop
 from verification.cases.requirements import REQUIREMENTS
 from verification.judging.case import Derived, Level
-from verification.problems.problem import FRICTION_LIMIT, ReferenceKind
+from verification.problems.problem import ReferenceKind
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 cases = cache(choose)
@@ -73,20 +70,3 @@ def test_paper_case_is_the_scene_of_the_repository() -> None:
         assert ours.normal_force == theirs.normal_force
         assert ours.tangential_force == pytest.approx(theirs.tangential_force)
         assert (ours.increments or 1) == (theirs.increments or 1)
-
-
-def test_the_states_of_the_paper_are_marked_at_their_share_of_the_friction_limit() -> None:
-    parts = {1: [0.0], 2: [0.0, 0.45, 0.9], 3: [0.45, 0.0, -0.45, -0.9], 4: [-0.45, 0.0, 0.45, 0.9]}
-    increments = [
-        SimpleNamespace(step=step, tangential_force=(part * FRICTION_LIMIT, 0.0))
-        for step, at in parts.items()
-        for part in at
-    ]
-    result: Any = SimpleNamespace(increments=increments)
-    ((panel,),) = loading_history_chart(result).rows
-    assert [name for _, _, name in panel.notes] == [name for name, _, _ in STATES]
-    assert [y for _, y, _ in panel.notes] == pytest.approx([part for _, _, part in STATES])
-    history, marks = panel.curves
-    assert history.x == pytest.approx([*np.linspace(0, 1, len(increments))], abs=1e-6)
-    assert history.y == pytest.approx([part for at in parts.values() for part in at])
-    assert marks.x == pytest.approx([x for x, _, _ in panel.notes], abs=1e-6)

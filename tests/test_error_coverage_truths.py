@@ -17,7 +17,6 @@ from verification.problems.drawn.families import (
     Posed,
     Similar,
     drawn,
-    oblique,
     refined,
     similar,
     stress_maxima,
@@ -74,50 +73,12 @@ def test_errors_fall_towards_the_answer(family: str) -> None:
     assert np.mean(np.log(fine + CHANCE)) <= np.mean(np.log(coarse + CHANCE)) - np.log(FALLS)
 
 
-@pytest.mark.parametrize("family", ["balls", "near-sliding", "oblique", "sliding", *CHEAP])
-def test_pressing_and_last_load_of_a_drawn_scene_are_known(family: str) -> None:
-    known = drawn(family, SEED, 0)
-    steps = {truth.step for truth in known.truths}
-    assert min(steps) == 1
-    assert max(steps) == len(known.scene.loading)
-
-
-def test_a_ball_that_slides_carries_the_friction_limit() -> None:
-    known = drawn("sliding", SEED, 0)
-    values = {(truth.step, truth.quantity): truth.reference.value for truth in known.truths}
-    pressing, sliding = known.scene.loading
-    assert pressing.normal_force is not None
-    assert known.scene.friction is not None
-    mu = known.scene.friction.uniform
-    assert mu is not None
-    assert values[2, "tangential_force"] == pytest.approx(mu * pressing.normal_force)
-    assert sliding.tangential_shift is not None
-    # Gross slip begins at 1 to 1.5 times this shift.
-    onset = mu * values[1, "approach"]
-    assert 2 * onset < sliding.tangential_shift[0] < 100 * onset
-    assert sliding.tangential_shift[1] == 0
-
-
 def similar_under_forces(posed: Posed) -> KnownScene:
     return next(
         known
         for seed in range(9)
         if (known := similar(np.random.default_rng(seed), posed)).scene == posed.scene
     )
-
-
-def test_a_turned_force_turns_the_answer() -> None:
-    posed = FAMILIES["oblique"].posed(np.random.default_rng(SEED))
-    turned = oblique(np.random.default_rng(SEED), posed)
-    along_x = similar_under_forces(posed)
-    forces = [np.array(step.tangential_force) for step in turned.scene.loading[1:]]
-    cosine = forces[0][0] / np.hypot(*forces[0])
-    assert 0 < cosine < 1
-    assert [force[0] / cosine for force in forces] == pytest.approx(posed.forces)
-    assert [np.hypot(*force) for force in forces] == pytest.approx(np.abs(posed.forces))
-    for truth, straight in zip(turned.truths, along_x.truths, strict=True):
-        part = cosine if truth.quantity == "tangential_shift" else 1.0
-        assert truth.reference.value == pytest.approx(part * straight.reference.value)
 
 
 def similar_balls() -> Similar:

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, scene
 from matplotlib.figure import Figure
 from small_result import small_errors, small_result
 
@@ -25,7 +24,7 @@ from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.result_report import ResultReport
 from contact_scene import read_scene_file
-from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from semi_analytical.fields import Result
 from slipstick import solve
@@ -117,24 +116,6 @@ def test_a_title_of_two_lines_stands_above_the_panels() -> None:
     assert title.get_text().count("\n") == 1
     assert title_box.y0 > figure.bbox.height - TITLE * figure.dpi
     assert title_box.y1 < figure.bbox.height
-
-
-@pytest.mark.parametrize(
-    ("name", "settings"),
-    [
-        ("semi-analytical", {"grid": "24 x 20 cells on 1.2 x 1 mm"}),
-        ("fem", {"method": "penalty", "mesh": "4 elements per contact radius"}),
-        ("fem-complementarity", {"method": "complementarity"}),
-        ("radial", {"rings": "over the largest contact"}),
-    ],
-)
-def test_a_page_names_the_solver_and_its_fineness(name, settings, tmp_path) -> None:
-    fineness = FiniteElementDiscretisation(elements_per_radius=4) if "method" in settings else None
-    result = small_result() if "grid" in settings else solve(scene(PRESS), name, fineness)
-    write_page(ResultReport.of(result), tmp_path)
-    page = (tmp_path / "index.html").read_text(encoding="utf-8")
-    for row, text in ({"solver": name} | settings).items():
-        assert re.search(f'<th scope="row">{row}</th><td>[^<]*{text}', page)
 
 
 def test_ticks_and_key_numbers_of_an_overview_fit() -> None:
