@@ -11,21 +11,21 @@ import pytest
 from slipstick.cli import main
 
 
-def slipstick(*arguments: object) -> int:
+def slipstick(*arguments):
     """Run the command in this process; its exit code."""
     with pytest.raises(SystemExit) as leaving:
         main([str(argument) for argument in arguments])
     return int(leaving.value.code or 0)
 
 
-def outcome(*arguments: object, cwd: Path) -> CompletedProcess[str]:
+def outcome(*arguments, cwd):
     """What the command has said in a directory, and how it ended, as of a process of its own."""
     with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err, chdir(cwd):
         code = slipstick(*arguments)
     return CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
 
 
-def succeeded(*arguments: object, cwd: Path) -> CompletedProcess[str]:
+def succeeded(*arguments, cwd):
     """Outcome of a command that ends with exit code 0."""
     ended = outcome(*arguments, cwd=cwd)
     assert ended.returncode == 0, ended.stdout + ended.stderr

@@ -72,7 +72,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 @pytest.fixture
-def rng() -> np.random.Generator:
+def rng():
     """Random numbers that are the same in every run."""
     return np.random.default_rng(20)
 
@@ -88,12 +88,12 @@ def leave_figures_undrawn(patch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(monkeypatch):
     leave_figures_undrawn(monkeypatch)
 
 
 @pytest.fixture(scope="module")
-def one_process() -> Generator[None]:
+def one_process():
     """Cases of a sweep or verification are computed in the process of the test: for tests of
     something else than workers."""
     from verification.running.case_pool import ThisProcess
@@ -129,7 +129,7 @@ def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest
 
 
 @pytest.fixture(autouse=True, scope="session")
-def own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+def own_cache(tmp_path_factory):
     """Neither read nor fill the cache of whoever runs the tests; subprocesses inherit this.
 
     The workers of one run share it.

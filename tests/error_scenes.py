@@ -1,14 +1,11 @@
 """Scenes and short names for tests of stated errors."""
 
-from typing import Any
-
 import numpy as np
 
 from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
-    Layer,
     LoadStep,
     Paraboloid,
     Scene,
@@ -21,18 +18,17 @@ from contact_scene.quantities.stated_error import (
 
 def size(error: StatedError) -> float:
     """Largest component of an error that is known."""
-    assert error.error is not None
     return float(np.max(error.error))
 
 
 def indented(
-    radius: float,
-    load: float,
-    film: Layer | None,
-    base: Any,
-    mu: float | None = None,
-    *more: LoadStep,
-) -> Scene:
+    radius,
+    load,
+    film,
+    base,
+    mu=None,
+    *more,
+):
     """A rigid ball of a radius pressed on a film, if there is one, and moved by further steps."""
     return Scene(
         indenter=Paraboloid(radius=radius, material=RIGID),
@@ -42,5 +38,5 @@ def indented(
     )
 
 
-def cells(count: int, **more: Any) -> SurfaceDiscretisation:
+def cells(count, **more):
     return SurfaceDiscretisation(cells=(count, count), **more)

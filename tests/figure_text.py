@@ -1,11 +1,7 @@
 """The content of figures as lines of text: titles, labels, limits, ticks, texts, the numbers drawn
 and the looks of all parts."""
 
-from __future__ import annotations
-
 from collections import Counter
-from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -25,7 +21,7 @@ LOOKS = """
 """
 
 
-def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]:
+def figure_lines(figure, array_text):
     """Yield the contents of a figure, axes by axes."""
     yield f"size: {array_text(figure.get_size_inches())}"
     yield from _words(figure)
@@ -50,7 +46,7 @@ def figure_lines(figure: Any, array_text: Callable[[Any], str]) -> Iterator[str]
     yield from (f"look of {number}: {look}" for look, number in looks.items())
 
 
-def _words(part: Any) -> Iterator[str]:
+def _words(part):
     yield from (
         f"{'text' if x.get_parse_math() else 'plain'}: {x.get_text()}".replace("\n", " / ")
         for x in part.texts
@@ -58,7 +54,7 @@ def _words(part: Any) -> Iterator[str]:
     )
 
 
-def _look(part: Any) -> str:
+def _look(part):
     """Properties of a part of a figure; empty if it draws nothing itself."""
     if isinstance(part, Text) and not part.get_text():
         return ""
@@ -69,7 +65,7 @@ def _look(part: Any) -> str:
     return " ".join([type(part).__name__, *shown]) if shown else ""
 
 
-def _value_text(value: Any) -> str:
+def _value_text(value):
     """Text of a property: a colour, a colour map or a number of each, or another value."""
     if is_color_like(value):
         return to_hex(value, keep_alpha=True)
@@ -78,7 +74,7 @@ def _value_text(value: Any) -> str:
     return getattr(value, "name", str(value))
 
 
-def _drawn(artist: Any) -> Any:
+def _drawn(artist):
     """Numbers of an artist of matplotlib; None if it has none."""
     if isinstance(artist, Line2D):
         return np.asarray(artist.get_xydata(), float).T

@@ -1,7 +1,5 @@
 """Helpers of tests that run the command line in a new process and measure its time and memory."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -66,7 +64,7 @@ def run(directory: Path, *words: str, program: str = MAIN, threads: int = 1) -> 
     return ended(begun(directory, *words, program=program, threads=threads))
 
 
-def imported_after(script: str, *words: object, cwd: Path) -> set[str]:
+def imported_after(script, *words, cwd):
     """Modules that a fresh process has imported after a script, with the words as its arguments."""
     program = script + "\nimport sys\nprint('\\nimported', *sys.modules)"
     ran = subprocess.run(

@@ -136,7 +136,7 @@ def report_of(cases: tuple[CaseOutcome, ...], studies: tuple[StudyRecord, ...] =
     )
 
 
-def report_by(*cases: CaseOutcome, level: str = "quick", **made: object) -> Report:
+def report_by(*cases, level="quick", **made):
     """A report of a commit on these, with these values of its provenance."""
     report = report_of(cases)
     provenance = report.provenance.model_copy(update={"commit": 40 * "a", **made})

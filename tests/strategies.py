@@ -21,19 +21,19 @@ ELASTIC = st.fixed_dictionaries(
 LAYERS = st.lists(st.fixed_dictionaries({"thickness": LENGTHS, "material": ELASTIC}), max_size=3)
 
 
-def rounded_tip(seed: int) -> Any:
+def rounded_tip(seed):
     """A table of radii and heights, with a curvature that differs by 10 %."""
     rng = np.random.default_rng(seed)
     radii = np.concatenate([[0.0], np.cumsum(rng.uniform(0.5, 1.0, 8))])
     return np.stack([radii, radii**2 * rng.uniform(0.45, 0.55, 9)], axis=1)
 
 
-def mirrored(table: Any) -> Any:
+def mirrored(table):
     """A table of radii and heights with its mirror image."""
     return np.concatenate([table[:0:-1] * [-1.0, 1.0], table])
 
 
-_SIZES: dict[str, dict[str, Any]] = {
+_SIZES = {
     "sphere": {"radius": LENGTHS},
     "paraboloid": {"radius": LENGTHS},
     "ellipsoid": {"radii": st.tuples(LENGTHS, LENGTHS).map(list)},
@@ -140,7 +140,7 @@ def _key(key: str) -> str:
     return json.dumps(key, ensure_ascii=True)
 
 
-def _value(value: Any) -> str:
+def _value(value):
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list):

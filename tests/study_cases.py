@@ -51,7 +51,7 @@ class Timed(Square):
 
     said: float
 
-    def compute(self) -> CaseRecord:  # type: ignore[override]
+    def compute(self) -> CaseRecord:
         started = time.process_time()
         while time.process_time() - started < self.of:
             pass
@@ -84,7 +84,7 @@ class Loop:
             if self.solver == "semi-analytical"
             else slipstick.FiniteElementDiscretisation(elements_per_radius=4)
         )
-        result = slipstick.solve(scene(*steps), self.solver, fineness)  # type: ignore[call-overload]
+        result = slipstick.solve(scene(*steps), self.solver, fineness)
         digest = hashlib.sha256()
         for increment in result.increments:
             for name, field in sorted(vars(increment).items()):

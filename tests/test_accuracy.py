@@ -3,7 +3,6 @@
 import re
 import signal
 import tracemalloc
-from collections.abc import Callable
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
@@ -106,7 +105,7 @@ def climbed(of: Scene, asked: str, **limits: float) -> Refined:
     return refine(on_cells(of), request(asked), **limits)
 
 
-def test_a_name_counts_more_than_the_share_of_all_in_the_order_of_the_results() -> None:
+def test_a_name_counts_more_than_the_share_of_all_in_the_order_of_the_results():
     """Equal requests give equal summaries: no order of a set, which changes from run to run."""
     shares = request("1%, torque: 2e-3, approach=0.1 %").shares()
     assert (shares["approach"], shares["torque"], shares["twist"]) == (1e-3, 2e-3, 1e-2)
@@ -130,7 +129,7 @@ def by_elements(method: Method) -> Levels:
     return Levels(ElementSolver(scene(PRESS), FiniteElementDiscretisation(), method=method))
 
 
-def by_rings(*loading: Any) -> Levels:
+def by_rings(*loading):
     return Levels(RingSolver(scene(*loading, indenter=paraboloid()), RadialDiscretisation()))
 
 
@@ -138,7 +137,7 @@ def finer_end(level: RefinementLevel) -> dict[str, Any]:
     """Numbers on cells a third as wide, or by half as many rings again."""
     posed, space = level.result.scene, level.fineness.space
     if isinstance(space, float):
-        finer: Any = radial.solve(posed, plan=replace(radial.plan(posed), fineness=1.5))
+        finer = radial.solve(posed, plan=replace(radial.plan(posed), fineness=1.5))
     else:
         finer = solve(posed, space.refined(3), 1e-8)
     return {name: getattr(finer.steps[-1], name) for name in level.values[-1]}
@@ -156,9 +155,7 @@ MET = {
 
 
 @pytest.mark.parametrize(("levels", "text", "exact"), MET.values(), ids=MET)
-def test_numbers_are_as_accurate_as_requested(
-    levels: Levels, text: str, exact: dict[str, Any] | None
-) -> None:
+def test_numbers_are_as_accurate_as_requested(levels, text, exact):
     made = refine(levels, request(text))
     assert made.accuracy.met
     for name, known in (exact or finer_end(made.level)).items():
@@ -169,7 +166,7 @@ def test_numbers_are_as_accurate_as_requested(
     assert made.accuracy.asked.keys() >= {*(exact or ())}
 
 
-def test_other_parameters_of_a_mesh_are_refined_by_their_factors() -> None:
+def test_other_parameters_of_a_mesh_are_refined_by_their_factors():
     asked = FiniteElementDiscretisation()
     solver = ElementSolver(scene(PRESS), asked, method=Method.PENALTY)
     assert solver.refine_space(asked, {}) == asked
@@ -181,7 +178,7 @@ def test_other_parameters_of_a_mesh_are_refined_by_their_factors() -> None:
     assert finer.elements_per_radius == asked.elements_per_radius
 
 
-def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> None:
+def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated():
     pressed = scene(PRESS, friction=None)
     grid = semi_analytical.discretise(pressed, SurfaceDiscretisation(cells=(64, 64)))
     result = solve(pressed, grid, 1e-6)
@@ -205,7 +202,7 @@ SOLVERS = {
 
 
 @pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
-def test_the_largest_tension_is_as_accurate_as_was_asked(solver: Any) -> None:
+def test_the_largest_tension_is_as_accurate_as_was_asked(solver):
     made = refine(Levels(solver, 1), request(TENSION))
     exact = (1 - 2 * NU) / 3 * hertz().peak_pressure  # at the edge of the contact
     assert made.accuracy.met
@@ -213,15 +210,15 @@ def test_the_largest_tension_is_as_accurate_as_was_asked(solver: Any) -> None:
     assert made.level.largest("max_principal") == pytest.approx(exact, rel=0.4)
 
 
-def test_a_tension_that_nobody_has_is_refused() -> None:
+def test_a_tension_that_nobody_has_is_refused():
     rigid = scene(PRESS, friction=None, body=Body(material=RIGID))
     with pytest.raises(AccuracyOutOfReach, match="max_principal"):
         refine(on_cells(rigid, 1), request(TENSION))
 
 
-def test_an_error_that_no_grid_reduces_ends_the_refinement() -> None:
+def test_an_error_that_no_grid_reduces_ends_the_refinement():
     at = 0.01 * A / 3 * np.abs(np.arange(13) - 6)
-    heights: Any = at[:, None] + at
+    heights = at[:, None] + at
     rough = HeightMap(file=heights, spacing=A / 3, material=RIGID)
     made = climbed(scene(PRESS, friction=None, indenter=rough), "approach 0.01%")
     assert not made.accuracy.met
@@ -229,11 +226,11 @@ def test_an_error_that_no_grid_reduces_ends_the_refinement() -> None:
     assert made.accuracy.rounds == 1
 
 
-def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch):
     """Each round takes one second and needs another of the same length."""
     solve_level, rounds = Levels.solve_level, []
 
-    def solved(self: Levels, fineness: Fineness) -> RefinementLevel:
+    def solved(self, fineness):
         rounds.append(fineness)
         level = solve_level(self, fineness)
         return replace(level, seconds=1.0, solve_seconds=1.0, error_seconds=0.0)
@@ -246,11 +243,11 @@ def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch: pytest.Monke
 
 
 def test_rounds_that_do_not_reduce_the_error_end_the_refinement_at_the_best_level(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     sizes, reached = iter([0.02, 0.01, 0.03, 0.04]), {}
 
-    def scripted(self: RefinementLevel, name: str) -> float:
+    def scripted(self, name):
         cells = self.fineness.space.cells
         if cells not in reached:
             reached[cells] = next(sizes)
@@ -266,9 +263,7 @@ def test_rounds_that_do_not_reduce_the_error_end_the_refinement_at_the_best_leve
 @pytest.mark.parametrize(
     "judge", [refine, lambda levels, asked: targets_of(asked, levels.solve_first_level(), levels)]
 )
-def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(
-    judge: Callable, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(judge, monkeypatch):
     """The last level needs little more memory than the first, and one byte less is available."""
     levels, asked = on_cells(scene(PRESS), edge="off"), request("approach 0.05%")
     *_, last = targets_of(asked, first := levels.solve_first_level(), levels)
@@ -293,7 +288,7 @@ def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> Refinemen
     return RefinementLevel(None, None, values, stated, run, 1.0, 0.5, 0.5)
 
 
-def test_a_worked_example_of_refinement() -> None:
+def test_a_worked_example_of_refinement():
     """Of 2: cells 4 %, increments 2 %, section 0.5 %; each is allowed 1/1.15/3 % = 0.2899 %:
     (4/0.2899)^(1/2) = 3.715, 2/0.2899 = 6.9, (0.5/0.2899)^(1/2) = 1.313."""
     parts = {"cells": 0.08, "increments": 0.04, "section": 0.01}
@@ -303,20 +298,20 @@ def test_a_worked_example_of_refinement() -> None:
 
 
 @given(st.lists(st.floats(0, 1), min_size=1, max_size=5), st.floats(1e-6, 1.0))
-def test_reduced_parts_use_up_what_was_asked(sizes: list[float], limit: float) -> None:
+def test_reduced_parts_use_up_what_was_asked(sizes, limit):
     allowed = largest_allowed_part(sizes, limit)
     reduced = sum(min(size, allowed) for size in sizes)
     assert reduced == pytest.approx(min(limit, sum(sizes)), abs=1e-12)
 
 
-def test_a_number_that_has_not_converged_doubles_the_cells() -> None:
+def test_a_number_that_has_not_converged_doubles_the_cells():
     level = level_of({"cells": 1e-9}, ErrorStatus.NOT_CONVERGED)
     assert not level.meets({"approach": 0.1})
     assert level.needed_factors({"approach": 0.1}) == {"cells": 2}
     assert limit_factors({}, "cells")["cells"] > 1
 
 
-def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
+def test_a_request_is_met_where_every_number_of_every_step_meets_it():
     fine, rough = (level_of({"cells": error}) for error in (1e-4, 0.5))
     steps = (*fine.stated.steps, *rough.stated.steps)
     for order in (steps, steps[::-1]):
@@ -333,7 +328,7 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
 
 
 @given(st.floats(1, 16000))
-def test_cells_are_even_and_smooth(least: float) -> None:
+def test_cells_are_even_and_smooth(least):
     number, _ = scale_cells((1, 1), least)
     assert number % 2 == 0
     assert least - 1e-6 <= number <= 1.2 * least + 2
@@ -349,9 +344,7 @@ def written(tmp_path: Path, more: str = "") -> Path:
     return path
 
 
-def test_python_solves_as_accurately_as_the_file_asks(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_python_solves_as_accurately_as_the_file_asks(tmp_path, monkeypatch):
     result = solve_file(read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.2 %'\n")))
     assert result.steps[-1].approach == pytest.approx(APPROACH, rel=2e-3)
     assert result.grid.cells < (64, 64)
@@ -366,11 +359,11 @@ def test_python_solves_as_accurately_as_the_file_asks(
 
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_resumes_the_solve_of_its_last_level(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-    stop: signal.Signals,
-) -> None:
+    tmp_path,
+    monkeypatch,
+    capfd,
+    stop,
+):
     path, out = written(tmp_path), tmp_path / "out"
     asked = ("--figures", "none", "--accuracy", FINER)
 
@@ -392,9 +385,7 @@ def test_a_killed_run_resumes_the_solve_of_its_last_level(
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
-def test_a_plan_prints_the_memory_of_the_libraries_at_least(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_plan_prints_the_memory_of_the_libraries_at_least(tmp_path, capsys):
     """Transcripts leave out sizes of memory."""
     assert slipstick("plan", written(tmp_path), "--accuracy", "1%") == 0
     memory = re.findall(r"about (\d+) MiB", capsys.readouterr().out)

@@ -11,7 +11,7 @@ import pytest
 from command import outcome, rows, succeeded
 
 from contact_results.files.stored_run import load
-from slipstick.against import ComparedNumber, comparison
+from slipstick.against import comparison
 from verification.closed_forms.hertz import PointContact, contact_modulus
 from verification.closed_forms.line_contact import CylinderContact
 
@@ -43,7 +43,7 @@ window = ["1.2 mm", "1.2 mm"]
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def place(tmp_path_factory):
     """A scene and its run in `run`."""
     directory = tmp_path_factory.mktemp("against")
     (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
@@ -65,11 +65,10 @@ def column(path: Path, name: str, steps: tuple[str, ...]) -> np.ndarray:
 
 def compared(place: Path, output: str) -> dict[str, Any]:
     """Record of a comparison that was written to `output`."""
-    record: dict[str, Any] = json.loads((place / output / "against.json").read_text("utf-8"))
-    return record
+    return json.loads((place / output / "against.json").read_text("utf-8"))
 
 
-def against(place: Path, measured: Path, scene: str, *options: object) -> dict[str, Any]:
+def against(place, measured, scene, *options):
     """Record of a comparison with a run, or a scene, which is solved for it."""
     succeeded("against", measured, scene, *options, "-o", "compared", cwd=place)
     return compared(place, "compared")
@@ -90,12 +89,12 @@ CLOSED = [(0.01, 0.0), (0.0, 0.01), (0.01, 0.01), (-0.02, 0.01), (0.003, -0.015)
 
 @pytest.mark.parametrize("cycles", [1, 3])
 @pytest.mark.parametrize("start", [0, 7, 24, 31])
-def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) -> None:
+def test_a_drift_of_a_loop_is_no_energy(place, cycles, start):
     """Linear drifts of shift and force, as parts of their ranges, from every start, both ways."""
     run = load(place / "run")
     _, *once = loop(place)
 
-    def energy(points: np.ndarray) -> ComparedNumber:
+    def energy(points):
         columns = {"tangential_shift": points[0], "tangential_force": points[1]}
         (found,) = (
             each for each in comparison(columns, run).numbers if each.name == "energy per cycle"
@@ -125,7 +124,7 @@ def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) ->
     assert open_ended.of_table > whole.of_table
 
 
-def test_the_gap_to_a_measured_force_is_a_mean_over_one_cycle(place: Path) -> None:
+def test_the_gap_to_a_measured_force_is_a_mean_over_one_cycle(place):
     _, shift, force = loop(place)
     smaller = table(place / "loop.csv", **{"shift [m]": shift, "T [N]": 0.9 * force})
     both_ways = np.sum(force**2) + np.min(force) ** 2  # with both ends twice
@@ -153,8 +152,8 @@ cells = 64
 
 
 def test_the_shear_of_a_line_contact_has_an_error_without_a_reference_length(
-    tmp_path: Path,
-) -> None:
+    tmp_path,
+):
     """Its shift is unknown, and its shear in the middle, µp₀(1 - c/a), is within the error."""
     (tmp_path / "line.toml").write_text(LINE, encoding="utf-8")
     ended = outcome("run", "line.toml", "-o", "run", "--figures", "none", cwd=tmp_path)
@@ -164,7 +163,6 @@ def test_the_shear_of_a_line_contact_has_an_error_without_a_reference_length(
     exact = 0.1 * pressed.peak_pressure * (1 - np.sqrt(0.5))
     found = comparison({"x": np.zeros(1), "shear": np.full(1, exact)}, run).numbers[0]
     assert found.name == "largest shear"
-    assert found.error is not None
     assert found.gap < found.error < 0.1 * exact
 
 
@@ -181,7 +179,7 @@ LINE_LOOP = (
 
 
 @pytest.fixture(scope="module")
-def line_place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def line_place(tmp_path_factory):
     """A loop of a cylinder in `line.toml`, and its run in `line`."""
     directory = tmp_path_factory.mktemp("line")
     (directory / "line.toml").write_text(LINE_LOOP, encoding="utf-8")
@@ -209,8 +207,8 @@ def line_loop(line_place: Path, unit: str = "N/mm", factor: float = 1e-3) -> Pat
     ],
 )
 def test_a_loop_of_forces_per_length_is_compared_with_a_line_contact(
-    line_place: Path, unit: str, factor: float, options: tuple[str, ...]
-) -> None:
+    line_place, unit, factor, options
+):
     """Energy and slope are per length. The energy is that of the run, to the area of few points."""
     measured = line_loop(line_place, unit, factor)
     command = ("against", measured, "line", *options, "--require", "slope 2%", "-o", "out")
@@ -227,7 +225,7 @@ def test_a_loop_of_forces_per_length_is_compared_with_a_line_contact(
     assert numbers["centre_of_force"]["measured"] == pytest.approx(0, abs=1e-3)
 
 
-def test_an_input_of_a_line_contact_is_uncertain(line_place: Path) -> None:
+def test_an_input_of_a_line_contact_is_uncertain(line_place):
     """The shift grows by 2T/πE* for each unit of the logarithm of the reference length."""
     measured, key = line_loop(line_place), "indenter.reference_length"
     per_logarithm = 2 * 50e3 / (np.pi * 210e9 / 0.91 / 2)
@@ -261,9 +259,7 @@ def measured_profile(place: Path, noise: float = 0.0) -> tuple[Path, np.ndarray]
 
 @pytest.mark.parametrize("half_width", [0.2, 0.39])
 @pytest.mark.parametrize("count", [24, 25])
-def test_the_error_of_a_profile_covers_means_over_cells(
-    place: Path, count: int, half_width: float
-) -> None:
+def test_the_error_of_a_profile_covers_means_over_cells(place, count, half_width):
     """The exact pressure, whose peak the cells know better than its values between them."""
     (place / "pressed.toml").write_text(PRESSED, encoding="utf-8")
     x = np.linspace(-half_width, half_width, 41) * 1e-3
@@ -273,7 +269,7 @@ def test_the_error_of_a_profile_covers_means_over_cells(
         assert number["gap"] <= number["error"] <= 0.1 * number["measured"]
 
 
-def test_an_input_is_identified_with_both_uncertainties(place: Path) -> None:
+def test_an_input_is_identified_with_both_uncertainties(place):
     """The slopes of Hertz's profile by the force give the standard deviation of the force."""
     noise = 1e7
     profile, x = measured_profile(place, noise)
@@ -289,7 +285,7 @@ def test_an_input_is_identified_with_both_uncertainties(place: Path) -> None:
     assert found["by_errors"] == pytest.approx(by_errors, rel=0.05)
 
 
-def test_a_fit_does_not_depend_on_the_unit(place: Path) -> None:
+def test_a_fit_does_not_depend_on_the_unit(place):
     """From a first value of 1 in its unit, whose logarithm is 0."""
     profile, _ = measured_profile(place)
     found = [
@@ -302,7 +298,7 @@ def test_a_fit_does_not_depend_on_the_unit(place: Path) -> None:
     assert found[1]["value"] == pytest.approx(1000 * found[0]["value"], rel=1e-9)
 
 
-def test_a_difference_has_its_validation_uncertainty(place: Path) -> None:
+def test_a_difference_has_its_validation_uncertainty(place):
     """The peak pressure grows with the cube root of the force."""
     profile, _ = measured_profile(place)
     given = ("--inputs", "loading[1].normal_force=1.1±.03 kN", "--deviation", "2%")

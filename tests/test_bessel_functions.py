@@ -1,7 +1,5 @@
 """Tests of Bessel functions of many orders against scipy, and of the memory they take."""
 
-from __future__ import annotations
-
 import tracemalloc
 
 import numpy as np
@@ -14,7 +12,7 @@ from radial.response.wavenumbers import waves
 
 
 @pytest.mark.parametrize("highest", [0, 1, 2, 10, 40])
-def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None:
+def test_bessel_functions_of_all_orders_are_those_of_scipy(highest):
     at = np.concatenate([[0.0], np.geomspace(1e-8, 300, 2000), highest + np.linspace(-1, 1, 41)])
     at = np.abs(at)
     found = list(bessel_functions(highest, at))
@@ -24,7 +22,7 @@ def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 40, 300])
-def test_spherical_bessel_functions_of_all_orders_are_those_of_scipy(count: int) -> None:
+def test_spherical_bessel_functions_of_all_orders_are_those_of_scipy(count):
     at = np.geomspace(1e-8, 2500, 1500)
     expected = spherical_jn(np.arange(count)[:, None], at)
     found = spherical_bessel_functions(count, at)
@@ -33,7 +31,7 @@ def test_spherical_bessel_functions_of_all_orders_are_those_of_scipy(count: int)
     assert_allclose(found[small], expected[small], rtol=5e-13)
 
 
-def test_transforms_of_many_wavenumbers_take_little_memory_beside_their_result() -> None:
+def test_transforms_of_many_wavenumbers_take_little_memory_beside_their_result():
     """Thin layers need 40 000 wavenumbers: all orders of all at once took gigabytes."""
     tracemalloc.start()
     many = waves(shortest=10_000.0, longest=1.0, reach=3.0)

@@ -17,14 +17,14 @@ cases = cache(choose)
 
 
 @pytest.mark.parametrize("level", Level)
-def test_names_are_unique_and_fit_for_commands(level: Level) -> None:
+def test_names_are_unique_and_fit_for_commands(level):
     assert tuple(case.name for case in cases(level)) == CASES
     assert len(set(CASES)) == len(CASES)
     assert all(name.isidentifier() and name.islower() for name in CASES)
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_labels_and_verdicts_of_a_case_are_unambiguous(name: str) -> None:
+def test_labels_and_verdicts_of_a_case_are_unambiguous(name):
     case = cases(Level.QUICK)[CASES.index(name)]
     labels = [run.label for run in case.runs]
     assert len(set(labels)) == len(labels)
@@ -39,8 +39,8 @@ def test_labels_and_verdicts_of_a_case_are_unambiguous(name: str) -> None:
 
 @pytest.mark.parametrize("level", Level)
 def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_references(
-    level: Level,
-) -> None:
+    level,
+):
     """Requirements are named; an order is judged, or a reason is given; a reference that somebody
     computed has an error; a number has a key of its own."""
     computed = (ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.EXTERNAL_CODE)
@@ -58,7 +58,7 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
         assert len(set(keys)) == len(keys), case.name
 
 
-def test_paper_case_is_the_scene_of_the_repository() -> None:
+def test_paper_case_is_the_scene_of_the_repository():
     case = paper_fretting_loop(Level.STANDARD)
     file = read_scene_file(SCENES / "fretting_loop.toml")
     run = case.runs[0]

@@ -1,13 +1,10 @@
 """Tests of the judgement of other codes, by files or from Python: their errors are detected."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +17,6 @@ from verification.challenge.cases import challenges
 from verification.challenge.files import toml_text
 from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import Challenge, Grade, Patch
-from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 from verification.problems.problem import HERTZ
 
@@ -28,7 +24,7 @@ POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
 
 
-def exact_field(asked: Any, cells: int = 48) -> Field:
+def exact_field(asked, cells=48):
     """The reference at the centres of cells."""
     half = 1.05 * max(asked.traction.semi_axes)
     x = (np.arange(cells) + 0.5) * 2 * half / cells - half
@@ -49,11 +45,11 @@ def answered(challenge: Challenge, off: Callable[[Any], Any]) -> Answer:
     return Answer(1e-5, scalars, fields, points=points)
 
 
-def nothing(asked: Any) -> float:
+def nothing(asked):
     return 0.0
 
 
-def twice_the_bound(asked: Any) -> Any:
+def twice_the_bound(asked):
     """An error that fails; of numbers at several places, at the middle one alone."""
     off = 2 * (asked.par.bound + asked.uncertainty)
     if getattr(asked, "places", None) is None:
@@ -70,7 +66,7 @@ def statuses(*answers: Answer, solver: Solver | None = None) -> dict[str, Status
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_scene_written_for_others_reads_back_as_itself(name: str, tmp_path: Path) -> None:
+def test_a_scene_written_for_others_reads_back_as_itself(name, tmp_path):
     file = tmp_path / "scene.toml"
     scene = challenges()[name].scene
     file.write_text(toml_text(scene), encoding="utf-8")
@@ -81,7 +77,7 @@ def test_a_scene_written_for_others_reads_back_as_itself(name: str, tmp_path: Pa
         assert load_scene(file) == scene
 
 
-def test_a_twisting_shear_for_others_has_the_torque_of_its_step() -> None:
+def test_a_twisting_shear_for_others_has_the_torque_of_its_step():
     challenge = challenges()["torsion"]
     assert challenge.fields
     for field in challenge.fields:
@@ -89,7 +85,7 @@ def test_a_twisting_shear_for_others_has_the_torque_of_its_step() -> None:
         assert field.traction.torque == pytest.approx(torque, rel=1e-9)
 
 
-def test_a_version_changes_with_what_is_asked() -> None:
+def test_a_version_changes_with_what_is_asked():
     versions = {challenge.version for challenge in challenges().values()}
     assert len(versions) == len(challenges())
 
@@ -98,7 +94,7 @@ def test_a_version_changes_with_what_is_asked() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_right_answers_pass_wrong_ones_fail_and_missing_ones_are_left_open(name: str) -> None:
+def test_right_answers_pass_wrong_ones_fail_and_missing_ones_are_left_open(name):
     """Wrong by twice the bound; missing on the finest level, where they would hide the worst."""
     challenge = challenges()[name]
     right, wrong = (answered(challenge, off) for off in (nothing, twice_the_bound))
@@ -118,9 +114,7 @@ def test_right_answers_pass_wrong_ones_fail_and_missing_ones_are_left_open(name:
 
 @pytest.mark.parametrize("beyond", [0, 3])
 @pytest.mark.parametrize("off", [0.0, 0.4, 0.9])
-def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
-    off: float, beyond: int
-) -> None:
+def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(off, beyond):
     (asked,) = POINT.fields
     h = HERTZ.contact_radius / (24 + off)
     r = h * np.arange(25.0 + beyond)
@@ -142,9 +136,7 @@ def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
         (1.5, "B", Status.FAIL),
     ],
 )
-def test_a_class_has_room_for_the_uncertainty_of_the_reference(
-    part: float, grade: str, status: Status
-) -> None:
+def test_a_class_has_room_for_the_uncertainty_of_the_reference(part, grade, status):
     """The error is the bound of the class and a part of twice the uncertainty."""
     each = ((one, asked) for one in challenges().values() for asked in one.values)
     challenge, asked = next(pair for pair in each if pair[1].uncertainty > 1e-7)
@@ -157,7 +149,7 @@ def test_a_class_has_room_for_the_uncertainty_of_the_reference(
 # ---- files --------------------------------------------------------------------------------------
 
 
-def test_an_export_that_is_killed_leaves_no_part_that_looks_whole(tmp_path: Path) -> None:
+def test_an_export_that_is_killed_leaves_no_part_that_looks_whole(tmp_path):
     """The process stops for good at every call that publishes: a new folder is there with all files
     or not at all, and one that was there has the file of answers last."""
     script = """
@@ -198,7 +190,7 @@ for folder in sys.argv[1:]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> None:
+def test_a_blind_export_does_not_print_the_answer(name, tmp_path):
     assert slipstick("challenge", "export", name, "-o", tmp_path, "--blind") == 0
     challenge = challenges()[name]
     numbers = np.concatenate([np.ravel(one.value) for one in challenge.numbers])
@@ -209,10 +201,10 @@ def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> 
     assert not (tmp_path / "reference.json").exists()
 
 
-def test_the_problem_that_a_solver_sees_has_no_answer() -> None:
-    seen: list[Posed] = []
+def test_the_problem_that_a_solver_sees_has_no_answer():
+    seen = []
 
-    def solve(posed: Posed, level: int) -> Answer:
+    def solve(posed, level):
         seen.append(posed)
         return Answer(1e-5 / 2**level, {("approach", 1): HERTZ.approach})
 

@@ -100,7 +100,7 @@ def with_edges(body: Body, edge: EdgeCorrection, ball: Sphere | None = None) -> 
     ball = ball or BALL.model_copy(update={"layers": body.layers})
     surface = SurfaceDiscretisation(cells=(32, 32), edge=edge)
 
-    def solve(store: CheckpointStore | None) -> Any:
+    def solve(store):
         result = semi_analytical.solve_discretised(scene(body, LED, ball), surface, store=store)
         assert any(step.edge_change is not None for step in result.steps)
         return result
@@ -179,7 +179,7 @@ class Ending:
             raise Killed
 
 
-def bits(value: Any) -> bytes:
+def bits(value):
     """All bits of a value, however often it has an object."""
     pickler = pickle.Pickler(content := BytesIO())
     pickler.fast = True
@@ -199,12 +199,12 @@ def keep_every_increment(patch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
+def _every_increment(monkeypatch):
     keep_every_increment(monkeypatch)
 
 
 @pytest.mark.parametrize("name", SOLVES)
-def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: Path) -> None:
+def test_going_on_after_any_increment_gives_the_same_bits(name, tmp_path):
     """The next increment from each, and so all; from the first to the end."""
     solve, every = SOLVES[name], All()
     whole = solve(every)
@@ -222,13 +222,13 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
 
 
 @pytest.mark.parametrize("motion", [PRESSING, TORSION, SHEARING])
-def test_motions_of_the_elements_return_from_a_file(motion: Any, tmp_path: Path) -> None:
+def test_motions_of_the_elements_return_from_a_file(motion, tmp_path):
     """With the function of their far field, which is the only kind of code that a file may name."""
     write_checkpoint_file(motion, "this solve", tmp_path / "motion")
     assert read_checkpoint_file(tmp_path / "motion", "this solve") == motion
 
 
-def test_writer_keeps_none_of_the_arrays_that_it_has_written(tmp_path: Path) -> None:
+def test_writer_keeps_none_of_the_arrays_that_it_has_written(tmp_path):
     size, peaks = 1 << 20, []
     with (tmp_path / "fields").open("wb+") as fields:
         fields.write(bytes(size))
@@ -250,7 +250,7 @@ def forged(content: bytes) -> bytes:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Path]:
+def whole(tmp_path_factory):
     """A result, and a folder with the checkpoint of its solve after every increment."""
     folder = tmp_path_factory.mktemp("whole")
     with pytest.MonkeyPatch.context() as patch:
@@ -270,17 +270,17 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, Path]:
     ],
 )
 def test_part_that_cannot_be_used_is_named_and_computed_again(
-    damage: Callable[[bytes], bytes],
-    problem: str,
-    number: int,
-    whole: tuple[Any, Path],
-    tmp_path: Path,
-) -> None:
+    damage,
+    problem,
+    number,
+    whole,
+    tmp_path,
+):
     result, folder = whole
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     path = tmp_path / "checkpoint" / f"part-{number:06d}"
     path.write_bytes(damage(path.read_bytes()))
-    said: list[str] = []
+    said = []
     store = checkpoint(tmp_path, said)
     last = store.last()
     assert (last.point.done if last else 0) == number
@@ -295,12 +295,12 @@ class Trap:
 
     directory: str
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self):
         return os.mkdir, (self.directory,)
 
 
 @pytest.mark.parametrize("protocol", [0, 2, 5])
-def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
+def test_file_of_a_stranger_runs_nothing(protocol, tmp_path):
     path = tmp_path / "part"
     path.write_bytes(forged(pickle.dumps(Trap(str(tmp_path / "made")), protocol)))
     with pytest.raises(Unusable, match="may not contain"):
@@ -311,9 +311,7 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("error", "stays"), [(None, False), (GrossSliding("no"), False), (OSError(28, "full"), True)]
 )
-def test_checkpoint_stays_only_where_it_is_of_use(
-    error: Exception | None, stays: bool, tmp_path: Path
-) -> None:
+def test_checkpoint_stays_only_where_it_is_of_use(error, stays, tmp_path):
     outcome = nullcontext() if error is None else pytest.raises(type(error))
     with outcome, provide_checkpoints(tmp_path / "out", "this solve", print) as store:
         SOLVES["similar"](store)
@@ -323,9 +321,7 @@ def test_checkpoint_stays_only_where_it_is_of_use(
     assert (tmp_path / ".out.checkpoint").is_dir() is stays
 
 
-def test_signal_just_after_a_write_leaves_the_written_increment_counted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_signal_just_after_a_write_leaves_the_written_increment_counted(tmp_path, monkeypatch):
     rename, store = os.replace, checkpoint(tmp_path, [])
     monkeypatch.setattr(os, "replace", lambda *a: (rename(*a), default_int_handler(SIGINT, None)))
     with pytest.raises(KeyboardInterrupt):
@@ -337,7 +333,7 @@ def test_signal_just_after_a_write_leaves_the_written_increment_counted(
 
 
 @pytest.fixture
-def stored(monkeypatch: pytest.MonkeyPatch) -> None:
+def stored(monkeypatch):
     """Whatever can be is in a file."""
     monkeypatch.setattr(stored_fields, "MAX_IN_MEMORY", 0)
     monkeypatch.setattr(stored_fields, "LEAST_STORED", 1)
@@ -349,9 +345,7 @@ def in_file(value: WithFields) -> list[str]:
 
 
 @pytest.mark.parametrize("name", ["similar", "torsion", "similar by penalty"])
-def test_files_are_the_same_to_the_byte(
-    name: str, tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
+def test_files_are_the_same_to_the_byte(name, tmp_path, request):
     results = [SOLVES[name](None)]
     request.getfixturevalue("stored")
     results.append(SOLVES[name](None))

@@ -54,14 +54,14 @@ FILES = {
 
 
 @pytest.fixture
-def scene(tmp_path: Path) -> Path:
+def scene(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(SCENE, encoding="utf-8")
     return path
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def whole(tmp_path_factory):
     """The results of the scene with everything in them, their figures undrawn."""
     scene = tmp_path_factory.mktemp("whole") / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
@@ -83,13 +83,10 @@ def run(scene: Path, *options: str) -> subprocess.CompletedProcess[str]:
 
 def summary(scene: Path) -> dict[str, list[dict[str, object]]]:
     text = (scene.parent / "out" / SUMMARY).read_text(encoding="utf-8")
-    record: dict[str, list[dict[str, object]]] = json.loads(text)
-    return record
+    return json.loads(text)
 
 
-def test_run_writes_every_file_and_the_same_bytes_in_another_process(
-    whole: Path, scene: Path
-) -> None:
+def test_run_writes_every_file_and_the_same_bytes_in_another_process(whole, scene):
     """Figures of equal results are equal: see test_run_output."""
     assert set(os.listdir(whole)) == FILES
     subprocess.run(command(scene, "--figures", "none"), cwd=ROOT, capture_output=True, check=True)
@@ -100,7 +97,7 @@ def test_run_writes_every_file_and_the_same_bytes_in_another_process(
         assert (scene.parent / "out" / name).read_bytes() == (whole / name).read_bytes()
 
 
-def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:
+def test_output_that_nobody_reads_has_a_code_of_its_own(scene):
     """As under `| head -1`; the results are there."""
     running = command(scene, "--figures", "none")
     others = ([*running[:3], name, str(scene)] for name in ("check", "plan"))  # text, a table
@@ -125,9 +122,7 @@ PARTS = {
 }
 
 
-def test_parts_that_cannot_be_computed_are_named_and_the_rest_is_written(
-    scene: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_parts_that_cannot_be_computed_are_named_and_the_rest_is_written(scene, monkeypatch):
     """The directory is then still that of a run, for all commands that read one."""
     with monkeypatch.context() as planted:
         for function in PARTS.values():
@@ -153,9 +148,7 @@ def test_parts_that_cannot_be_computed_are_named_and_the_rest_is_written(
         succeeded(*words, cwd=ROOT)
 
 
-def test_a_saved_result_names_what_could_not_be_computed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_saved_result_names_what_could_not_be_computed(tmp_path, monkeypatch):
     monkeypatch.setattr(PARTS["the page"], lambda *_: 1 / 0)
     with pytest.warns(UserWarning, match="the page could not be computed"):
         save(small_result(), tmp_path / "out")

@@ -25,7 +25,7 @@ COMMANDS = {
 
 
 @pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
-def test_code_reads_clean(command: tuple[str, ...]) -> None:
+def test_code_reads_clean(command):
     outcome = subprocess.run(
         [sys.executable, *command], cwd=ROOT, capture_output=True, text=True, check=False
     )

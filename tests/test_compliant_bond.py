@@ -1,7 +1,5 @@
 """Tests of layers whose bond to the material below is compliant."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -37,7 +35,7 @@ def scene(*layers: Layer) -> Scene:
     )
 
 
-def test_layers_merge_through_rigid_bonds_alone() -> None:
+def test_layers_merge_through_rigid_bonds_alone():
     glued = Layer(thickness=100e-6, material=STEEL, interface_stiffness=BOND)
     plain = Layer(thickness=50e-6, material=STEEL)
     assert normal_form(scene(plain, plain)).body.layers == ()
@@ -49,18 +47,18 @@ def test_layers_merge_through_rigid_bonds_alone() -> None:
     assert scene(plain, glued).body.thinnest == pytest.approx(150e-6)
 
 
-def test_a_bond_without_stiffness_is_rigid() -> None:
-    layer = Layer(thickness=1e-4, material=HARD, interface_stiffness={})  # type: ignore[arg-type]
+def test_a_bond_without_stiffness_is_rigid():
+    layer = Layer(thickness=1e-4, material=HARD, interface_stiffness={})
     assert layer.interface_stiffness is None
 
 
-def test_stiffnesses_have_units_and_stiff_bonds_are_no_contrast() -> None:
+def test_stiffnesses_have_units_and_stiff_bonds_are_no_contrast():
     """A bond far stiffer than its layer is solved as a rigid one."""
     stiff = InterfaceStiffness.model_validate({"normal": "1e16 N/mm^3", "shear": "1e10 GPa/um"})
     assert stiff.given == (1e25, 1e25)
     layer = Layer(thickness=100e-6, material=HARD, interface_stiffness=stiff)
     plain = Layer(thickness=100e-6, material=HARD)
-    ends: list[Any] = [slipstick.solve(scene(one), "radial").steps[0] for one in (layer, plain)]
+    ends = [slipstick.solve(scene(one), "radial").steps[0] for one in (layer, plain)]
     assert ends[0].approach == pytest.approx(ends[1].approach, rel=1e-9)
 
 

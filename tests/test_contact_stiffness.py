@@ -98,7 +98,7 @@ EVERY = [
 
 
 @pytest.mark.parametrize(("body", "solver", "name"), EVERY)
-def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name) -> None:
+def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name):
     names, steps, kind = CASES[name]
     *before, last = steps
     end = ends(solver, *steps, body=body, **kind)[-1]
@@ -109,13 +109,13 @@ def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name)
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("body", BODIES)
-def test_a_kept_load_has_the_stiffness_of_full_stick(solver, body) -> None:
+def test_a_kept_load_has_the_stiffness_of_full_stick(solver, body):
     slipped, held, reversed_ = ends(solver, PRESS, push(0.6), PRESS, push(0.599), body=body)[1:]
     assert held.tangential_stiffness == pytest.approx(reversed_.tangential_stiffness, rel=1e-3)
     assert slipped.tangential_stiffness < 0.9 * held.tangential_stiffness
 
 
-def test_a_stalled_linear_solve_leaves_the_result(monkeypatch) -> None:
+def test_a_stalled_linear_solve_leaves_the_result(monkeypatch):
     monkeypatch.setattr(tangent, "MAX_ITERATIONS", 1)
     for body in BODIES:
         end = ends("semi-analytical", PRESS, push(0.5), body=body)[-1]

@@ -37,7 +37,7 @@ FRICTION = "\n[friction]\ncoefficient = 0.1"
 
 
 @pytest.fixture(autouse=True)
-def solve_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def solve_once(monkeypatch):
     """No test judges the CPU time, for which short solves are repeated."""
     monkeypatch.setattr("verification.running.cold_cache.MAX_REPEATS", 1)
 
@@ -159,7 +159,7 @@ SCENES = {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_limit_and_error_cover_the_known_value(name: str, tmp_path: Path) -> None:
+def test_limit_and_error_cover_the_known_value(name, tmp_path):
     scene = SCENES[name]
     found = {one.name: one for one in scene.estimates(tmp_path)}
     known = by_radial(read(scene.text, tmp_path)) if scene.known is None else scene.known
@@ -179,7 +179,7 @@ def test_limit_and_error_cover_the_known_value(name: str, tmp_path: Path) -> Non
         assert mesh or "cut" not in effect.open
 
 
-def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) -> None:
+def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path):
     contents = read(
         INDENTED + "[[loading]]\ntangential_force = ['60 N', 0]\nincrements = 16", tmp_path
     )
@@ -189,7 +189,7 @@ def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("shape", ["paraboloid", "cylinder"])
-def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) -> None:
+def test_the_order_of_a_section_is_that_of_its_size(shape, tmp_path):
     force = "1 kN" if shape == "paraboloid" else "1 kN/mm"
     pressed = text(BALL.replace("paraboloid", shape), STEEL, STEEL).replace("1 kN", force)
     contents = read(f"{pressed}[fem_reference]\nelements_per_radius = 8", tmp_path)
@@ -201,7 +201,7 @@ def test_the_order_of_a_section_is_that_of_its_size(shape: str, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
-def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
+def test_the_setting_of_the_scene_is_that_of_a_run(solver, tmp_path):
     contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
     level = plan_of(StudiedScene(contents, 2, solver), None).run.compute()
     end = values_of(solve(contents, solver))[-1]

@@ -1,10 +1,7 @@
 """Tests of the CPU time that `slipstick plan` estimates, against the time of runs."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,7 +12,7 @@ from contact_errors.cost_estimate import (
 from contact_errors.trial_solve import estimate_seconds
 from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
-from contact_scene.discretised import Fineness, Work
+from contact_scene.discretised import Work
 from contact_scene.disk_cache import without_cache
 from fem_reference.discretised import ELEMENT_OVERHEAD
 from semi_analytical.discretised import CELL_OVERHEAD, CellSolver
@@ -41,7 +38,7 @@ SHARE = 0.2  # of the time of a run that its estimate may take
         ("fretting_loop", SolverName.FEM_COMPLEMENTARITY),
     ],
 )
-def test_runs_take_half_to_twice_the_estimate(scene: str, name: SolverName) -> None:
+def test_runs_take_half_to_twice_the_estimate(scene, name):
     solver = name.solver.of_file(read_scene_file(SCENES / f"{scene}.toml"))
     with without_cache():
         began = time.process_time()
@@ -57,11 +54,11 @@ def test_runs_take_half_to_twice_the_estimate(scene: str, name: SolverName) -> N
     assert trial <= SHARE * taken
 
 
-def test_a_plan_solves_a_few_increments_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    solved: list[tuple[int, ...]] = []
+def test_a_plan_solves_a_few_increments_alone(monkeypatch):
+    solved = []
     solve = CellSolver.solve
 
-    def counted(solver: CellSolver, fineness: Fineness, *further: Any) -> Any:
+    def counted(solver, fineness, *further):
         solved.append(fineness.increments)
         return solve(solver, fineness, *further)
 
@@ -71,7 +68,7 @@ def test_a_plan_solves_a_few_increments_alone(monkeypatch: pytest.MonkeyPatch) -
     assert solved == [(2, 2, 2)]
 
 
-def test_a_worked_example() -> None:
+def test_a_worked_example():
     # (65536 + 16384)/(1024 + 16384) = 4.705882, to the power 1.1: 5.4942; with 1/4 and 4/25 of the
     # cells in the coarse solves 2.00526 and 1.61201; times 10/4 increments.
     coarse, fine = (Work(n**2, count, CELL_OVERHEAD) for n, count in ((32, 4), (256, 10)))
@@ -94,5 +91,5 @@ def test_a_worked_example() -> None:
         (3.6e4, "about 10 h"),
     ],
 )
-def test_a_time_is_told_in_the_unit_that_suits_it(seconds: float, text: str) -> None:
+def test_a_time_is_told_in_the_unit_that_suits_it(seconds, text):
     assert time_text(seconds) == text

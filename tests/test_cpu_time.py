@@ -29,28 +29,26 @@ ELSEWHERE = KNOWN.model_copy(update={"processor": "other"})
         ([3.3, 9.0, 9.0, 9.0, 9.0], ELSEWHERE, [ChangeKind.DRIFT]),
     ],
 )
-def test_a_command_is_as_dear_as_its_cheapest_repeat(
-    measured: list[float], known: CpuTimes, kinds: list[ChangeKind]
-) -> None:
+def test_a_command_is_as_dear_as_its_cheapest_repeat(measured, known, kinds):
     """Stored are 2 loops: above 2.6 is a warning, above 3.2 dearer, on the same processor."""
     repeats = iter(measured)
     rows = cpu_time_changes({"run": ()}, MADE, known, lambda _: next(repeats))
     assert [row.kind for row in rows] == kinds
 
 
-def test_the_processor_has_the_name_that_the_system_gives_it() -> None:
+def test_the_processor_has_the_name_that_the_system_gives_it():
     """Times are compared on processors of one name."""
     lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     names = {line.split(": ")[-1] for line in lines if line.startswith("model name")}
     assert KNOWN.processor in names or not names
 
 
-def test_a_command_without_a_stored_time_is_refused() -> None:
+def test_a_command_without_a_stored_time_is_refused():
     with pytest.raises(Refused, match="store the times by"):
         cpu_time_changes({"plan": ()}, MADE, KNOWN)
 
 
-def test_a_process_is_measured_with_its_imports_and_a_failing_one_is_refused() -> None:
+def test_a_process_is_measured_with_its_imports_and_a_failing_one_is_refused():
     idle, busy = (cpu_seconds(["-c", f"sum(range({n}))"]) for n in (1, 30_000_000))
     assert 0 < idle < busy / 3
     with pytest.raises(Refused, match="-c 1/0 ends with exit code 1: Traceback"):

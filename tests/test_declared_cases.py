@@ -1,7 +1,7 @@
 """Tests of declared verification cases: every verdict of the catalogue can fail."""
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from types import SimpleNamespace
@@ -23,21 +23,21 @@ from verification.judging.case import (
     compare_runs,
 )
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
-from verification.judging.outcome import Status, Verdict
+from verification.judging.outcome import Status
 from verification.problems.problem import ReferenceKind
 from verification.regression.baseline import Key, key_of
 
 
-def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:
+def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off():
     """Relative to the reference: 3 instead of 2 is off by half, which is twice the uncertainty."""
-    results: dict[str, Any] = {"judged": 2.1, "reference": 2.0, "coarse": 3.0}
+    results = {"judged": 2.1, "reference": 2.0, "coarse": 3.0}
     row = compare_runs(
         *("name", "meaning", ("judged", "reference")),
         lambda one, other: abs(one - other) / other,
         *(0.1, "why", "source", ReferenceKind.OTHER_SOLVER),
         coarse="coarse",
     )
-    case: Any = SimpleNamespace()
+    case = SimpleNamespace()
     assert with_uncertainty(row, case, results).reference.uncertainty == 0.25
 
 
@@ -83,7 +83,7 @@ NOT_OF_NUMBERS = ("increments", "stated")
 ROUND_OFF = 1e-10
 
 
-def numbers_of(increment: Any) -> dict[str, Any]:
+def numbers_of(increment):
     """Scalars, vectors and fields of an increment by name; no counts, places or missing ones."""
     found = {name: getattr(increment, name) for name in vars(increment)}
     return {
@@ -93,7 +93,7 @@ def numbers_of(increment: Any) -> dict[str, Any]:
     }
 
 
-def wrong(result: Any, label: str, times: float, right: Sequence[str] = ()) -> Any:
+def wrong(result, label, times, right=()):
     """The result with all other numbers wrong, each by its own factor and its own part of the
     largest.
 
@@ -124,7 +124,7 @@ def wrong(result: Any, label: str, times: float, right: Sequence[str] = ()) -> A
     return replace(result, increments=tuple(increments))
 
 
-def with_scalar_off(result: Any, scalar: tuple[str, int, int], off: float) -> Any:
+def with_scalar_off(result, scalar, off):
     """The result with one component of a scalar wrong at the end of one load step."""
     name, component, step = scalar
     end = result.steps[step]
@@ -137,7 +137,7 @@ def with_scalar_off(result: Any, scalar: tuple[str, int, int], off: float) -> An
 
 def passing(case: Case, quantities: Sequence[Quantity], results: dict[str, Any]) -> set[Key]:
     """Keys of the verdicts that pass; the laws pass together. Without a number the case fails."""
-    judges: list[Callable[[], tuple[Verdict, ...]]] = [
+    judges = [
         *(lambda q=q: (judge_quantity(q, case, results),) for q in quantities),
         *(lambda order=order: (judge_order(order, case, results),) for order in case.orders),
         *([lambda: judge_laws(case, results)] if results else []),
@@ -156,12 +156,12 @@ def passing(case: Case, quantities: Sequence[Quantity], results: dict[str, Any])
     "name",
     [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in CASES],
 )
-def test_no_verdict_passes_with_wrong_or_missing_numbers(name: str) -> None:
+def test_no_verdict_passes_with_wrong_or_missing_numbers(name):
     """All numbers are wrong, in two ways as one may agree by chance, or missing; or a scalar is off
     by twice its tolerance."""
     case = case_of(name, Level.QUICK)
     with without_cache():
-        results: dict[str, Any] = {run.label: run.solve() for run in case.runs}
+        results = {run.label: run.solve() for run in case.runs}
     measured = [with_uncertainty(q, case, results) for q in case.quantities if q.labels]
     once, twice, missing = (
         passing(

@@ -5,7 +5,6 @@ import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +23,7 @@ SHAPE = (4, 3)
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path, monkeypatch):
     monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "deep" / "cache"))
     return tmp_path / "deep" / "cache"
 
@@ -48,11 +47,11 @@ def the_entry(folder: Path) -> Path:
     return path
 
 
-def test_what_is_kept_is_not_computed_again(folder: Path) -> None:
+def test_what_is_kept_is_not_computed_again(folder):
     assert [computed(), computed(), computed("that"), computed()] == [True, False, True, False]
 
 
-def test_without_the_cache_nothing_is_read_or_kept(folder: Path) -> None:
+def test_without_the_cache_nothing_is_read_or_kept(folder):
     with without_cache():
         assert computed()
     assert not folder.exists()
@@ -71,7 +70,7 @@ def in_place_of(path: Path, make: Callable[[Path], object]) -> None:
     make(path)
 
 
-DAMAGES: dict[str, tuple[Callable[[Path], object], str]] = {
+DAMAGES = {
     "a flipped bit": (lambda p: flipped(p, -5), "is damaged"),
     "cut off": (lambda p: os.truncate(p, p.stat().st_size - 8), "is damaged"),
     "grown": (grown_to_zeros, "is damaged"),
@@ -95,9 +94,7 @@ def flipped(path: Path, at: int) -> None:
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_what_is_not_whole_is_named_once_and_computed_again(
-    folder: Path, damage: str, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_what_is_not_whole_is_named_once_and_computed_again(folder, damage, caplog):
     computed()
     path = the_entry(folder)
     apply, why = DAMAGES[damage]
@@ -107,7 +104,7 @@ def test_what_is_not_whole_is_named_once_and_computed_again(
     assert computed() == path.is_dir()
 
 
-def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
+def test_planted_link_writes_nowhere_else(folder, tmp_path):
     computed()
     outside, path = tmp_path / "outside", the_entry(folder)
     outside.write_text("precious")
@@ -118,9 +115,7 @@ def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
     assert not computed()
 
 
-def test_least_recently_used_make_room_and_other_files_are_spared(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_least_recently_used_make_room_and_other_files_are_spared(folder, monkeypatch):
     monkeypatch.setattr(disk_cache, "LARGEST_CACHE", 900)
     monkeypatch.setattr(disk_cache, "WRITES_PER_SEARCH", 1)
     folder.mkdir(parents=True)
@@ -140,7 +135,7 @@ def test_least_recently_used_make_room_and_other_files_are_spared(
 
 
 @pytest.mark.parametrize("cached", [compliance, layered], ids=["compliance", "coefficients"])
-def test_all_sources_of_an_array_are_in_its_key(cached: Any, tmp_path: Path) -> None:
+def test_all_sources_of_an_array_are_in_its_key(cached, tmp_path):
     """Of the project's modules only values, refusals and the folders of the digest are imported."""
     own = cached.PACKAGE.name
     inside = tuple(f"{own}.{folder}" for folder in cached.FOLDERS)

@@ -47,7 +47,7 @@ CALLS = [(page, words) for page in WRITTEN for words in calls(page)]
 @pytest.mark.parametrize(
     ("page", "words"), CALLS, ids=[f"{p.stem}: {' '.join(w)}" for p, w in CALLS]
 )
-def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
+def test_commands_of_the_pages_are_known(page, words):
     name, *rest = words[words[0] == MAINTAIN :]
     command = ALL_COMMANDS[" ".join(words[: len(words) - len(rest)])].load(name)
     options = {o for p in command.params for o in (*p.opts, *p.secondary_opts)} | {"--help", "-h"}
@@ -61,7 +61,7 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
 
 
-def test_the_hyphens_of_an_option_do_not_become_a_dash(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_hyphens_of_an_option_do_not_become_a_dash(monkeypatch):
     monkeypatch.setattr(sys, "path", [*sys.path])  # which the settings extend
     settings = run_path(str(ROOT / "docs" / "conf.py"))
     text = "the option --set"
@@ -69,19 +69,19 @@ def test_the_hyphens_of_an_option_do_not_become_a_dash(monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize("name", ALL_COMMANDS)
-def test_no_word_of_a_help_is_clipped(name: str, tmp_path: Path, monkeypatch) -> None:
+def test_no_word_of_a_help_is_clipped(name, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     assert "…" not in succeeded(*name.split(), "--help", cwd=tmp_path).stdout
 
 
 @pytest.mark.parametrize(("case", "quantity", "run", "error"), ERRORS)
-def test_errors_of_the_pages_are_those_of_the_stored_report(case, quantity, run, error) -> None:
+def test_errors_of_the_pages_are_those_of_the_stored_report(case, quantity, run, error):
     verdicts = next(one["verdicts"] for one in REPORT["cases"] if one["name"] == case)
     named = [v for v in verdicts if v["name"] == quantity and run in v["run"]]
     assert f"{max(v['error'] for v in named if 'edge off' not in v['run']):.2g}" == error
 
 
-def test_the_result_of_the_readme_is_computed(tmp_path: Path) -> None:
+def test_the_result_of_the_readme_is_computed(tmp_path):
     number = r"`(\S+) ± (\S+)`"
     stated = rf"`slipstick run (\S+)`.* approach {number} µm, peak pressure {number}\s+GPa"
     scene, *numbers = re.search(stated, text_of(README)).groups()
@@ -93,7 +93,7 @@ def test_the_result_of_the_readme_is_computed(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_durations_of_the_readme_are_of_their_order_of_magnitude(tmp_path: Path) -> None:
+def test_durations_of_the_readme_are_of_their_order_of_magnitude(tmp_path):
     """CPU seconds of a process each, in the order of the page, as later ones read what earlier ones
     wrote."""
     stated = re.findall(
@@ -117,17 +117,17 @@ def children_cpu() -> float:
 
 
 @pytest.mark.parametrize("page", WRITTEN, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_links_to_files_lead_somewhere(page: Path) -> None:
+def test_links_to_files_lead_somewhere(page):
     targets = re.findall(r"\]\(([^)#\s]+)[^)]*\)", text_of(page))
     inside = [target for target in targets if not target.startswith(("http", "mailto"))]
     assert [target for target in inside if not (page.parent / target).exists()] == []
 
 
-def test_the_picture_is_small() -> None:
+def test_the_picture_is_small():
     assert (ROOT / "docs" / "coated_contact.png").stat().st_size <= 150_000
 
 
-def test_the_navigation_has_its_colours_at_every_width() -> None:
+def test_the_navigation_has_its_colours_at_every_width():
     """The theme moves it to the top, on a dark ground, below the width of its page."""
     found = re.search(r'"page_width": "(\d+px)"', text_of(ROOT / "docs/conf.py"))
     assert found

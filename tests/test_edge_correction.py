@@ -177,8 +177,8 @@ def test_gross_slip_under_a_shift_has_the_friction_limit_of_the_corrected_force(
 
 
 @pytest.mark.parametrize("mirrors", [(True, False), (False, True), (True, True)])
-def test_variations_within_cells_are_mirrored_with_their_cells(mirrors: tuple[bool, bool]) -> None:
-    def placed(one: Within) -> np.ndarray:
+def test_variations_within_cells_are_mirrored_with_their_cells(mirrors):
+    def placed(one):
         parts = np.zeros((*one.slopes.shape[1:], PARTS, PARTS))
         parts[one.i, one.j] = one.rest
         return parts

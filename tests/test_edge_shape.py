@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_erosion
 
 from semi_analytical.edge.clipped_power_means import mean_of_cut, mean_of_smooth
-from semi_analytical.edge.fit import NARROW, WIDE, Stencil, peak_of
+from semi_analytical.edge.fit import NARROW, WIDE, peak_of
 from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 
@@ -29,9 +29,7 @@ BOUNDS = {NARROW: 2e-4, WIDE: 3e-5}
 @pytest.mark.parametrize("exponent", [0.5, 0.51, 1.5])
 @pytest.mark.parametrize(("stencil", "rings"), [(NARROW, 1), (WIDE, 2)])
 @pytest.mark.parametrize(("radii", "angle"), [CIRCLE, ELLIPSE])
-def test_edge_points_are_on_the_edge_that_exact_means_have(
-    radii: tuple[float, float], angle: float, stencil: Stencil, rings: int, exponent: float
-) -> None:
+def test_edge_points_are_on_the_edge_that_exact_means_have(radii, angle, stencil, rings, exponent):
     centre = (19.37, 19.81)
     means = ellipse_means(CELLS, radii, centre, angle, exponent)
     shape = edge_shape(means, means > 0, stencil, rings=rings, exponent=exponent)
@@ -42,16 +40,14 @@ def test_edge_points_are_on_the_edge_that_exact_means_have(
     assert np.max(np.abs(error)) < (3.0 if exponent > 1 else 1.0) * BOUNDS[stencil]
 
 
-def test_a_region_without_data_is_refused() -> None:
+def test_a_region_without_data_is_refused():
     means = ellipse_means(CELLS, (13.3, 1.2), (19.37, 19.81))
     with pytest.raises(ValueError, match="Use smaller cells"):
         edge_shape(means, means > 0, WIDE, rings=2)
 
 
 @pytest.mark.parametrize(("component", "parity"), PARITY.items())
-def test_a_mirror_turns_every_index_along_its_normal(
-    component: str, parity: tuple[int, int]
-) -> None:
+def test_a_mirror_turns_every_index_along_its_normal(component, parity):
     assert parity == tuple((-1) ** component.count(axis) for axis in "xy")
 
 
@@ -101,7 +97,7 @@ def test_the_peak_of_caps_and_ridges(pressure, ridge, within):
 
 
 @pytest.mark.parametrize("exponent", [0.0, 0.5, 0.51, 1.5, -0.5])
-def test_the_series_is_exact_to_what_it_states(exponent: float) -> None:
+def test_the_series_is_exact_to_what_it_states(exponent):
     slopes = np.array([[1.0, 0.8, 0.5], [0.0, 0.2, 0.5]])
     f = 1.5 * np.sum(slopes, axis=0)
     found, exact = (mean(f, *slopes, exponent) for mean in (mean_of_smooth, mean_of_cut))

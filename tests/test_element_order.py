@@ -1,7 +1,6 @@
 """Tests of the order of the finite elements: nodes, polynomials, and contacts by another order."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -57,7 +56,7 @@ print(-below.stress()[2, below.axis[0]] / exact.peak_pressure)
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])
-def test_nodes_divide_edges_and_determine_polynomials_of_the_degree(degree: int) -> None:
+def test_nodes_divide_edges_and_determine_polynomials_of_the_degree(degree):
     order = replace(BIQUADRATIC, degree=degree)
     nodes = order.nodes(CORNERS)
     assert nodes[::degree] == pytest.approx(CORNERS)
@@ -68,7 +67,7 @@ def test_nodes_divide_edges_and_determine_polynomials_of_the_degree(degree: int)
     assert {sum(powers) for powers in order.pressures} == set(range(degree))
 
 
-def test_contacts_by_another_order_need_its_record_only(tmp_path: Path) -> None:
+def test_contacts_by_another_order_need_its_record_only(tmp_path):
     """Bilinear elements, 16 over the radius, agree with Hertz and Cattaneo-Mindlin."""
     ran = run(tmp_path, element_order.__file__, program=BY_BILINEAR_ELEMENTS)
     assert ran.code == 0, ran.said

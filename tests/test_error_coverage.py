@@ -1,7 +1,5 @@
 """Tests of the study of stated errors: its counts, and its detection of a wrong error estimate."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import pytest
@@ -44,7 +42,7 @@ def row(
 MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
 JUDGED = {"covered", "tight", "wide", "false_marks"}
 # A number, the shares that it belongs to, and those in which it counts.
-COUNTED: dict[str, tuple[Row, set[str], set[str]]] = {
+COUNTED = {
     "covered": (row(1e-3, 1.1e-3), {"covered", "tight"}, JUDGED),
     "ten times too large": (row(1e-3, 1.1e-2), {"covered"}, JUDGED),
     "thirty times too large": (row(1e-3, 3.1e-2), {"covered", "wide"}, JUDGED),
@@ -65,7 +63,7 @@ COUNTED: dict[str, tuple[Row, set[str], set[str]]] = {
 
 
 @pytest.mark.parametrize("name", COUNTED)
-def test_each_number_is_counted_once(name: str) -> None:
+def test_each_number_is_counted_once(name):
     one, inside, counted = COUNTED[name]
     shares = (
         Share(int(share in inside), int(share in counted))
@@ -98,9 +96,7 @@ def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, C
         (22, 400, Status.FAIL),
     ],
 )
-def test_a_family_fails_if_its_coverage_is_significantly_below_that_of_all(
-    missed: int, of: int, outcome: Status
-) -> None:
+def test_a_family_fails_if_its_coverage_is_significantly_below_that_of_all(missed, of, outcome):
     """By the binomial distribution, P(X <= of - missed) < 0.01 at a true fraction of 0.97."""
     rows = [row(1e-3, 2e-3)] * (of - missed) + [row(1e-3, 5e-4)] * missed
     (family,) = (s for s in conclude(SETTINGS, records(rows)).statements if "family" in s.claim)
@@ -117,6 +113,6 @@ def test_a_family_fails_if_its_coverage_is_significantly_below_that_of_all(
         ([0.5] * 59, Status.INCONCLUSIVE),
     ],
 )
-def test_requests_are_judged_by_true_errors(ratios: list[float], outcome: Status) -> None:
+def test_requests_are_judged_by_true_errors(ratios, outcome):
     *_, statement = conclude(SETTINGS, records([], ratios)).statements
     assert statement.outcome is outcome

@@ -1,9 +1,6 @@
 """Tests of the known results of random scenes: solvers converge to them under refinement."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pytest
@@ -41,18 +38,18 @@ LARGEST = 0.1
 
 def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
     """Relative errors beyond the uncertainty of the answer."""
-    asked: Any = known.fineness.asked
+    asked = known.fineness.asked
     if known.fineness.solver == CELLS:
         cells = FINE if fine else COARSE
         asked = asked.model_copy(update={"cells": (cells, cells + 1)})
-        result: Any = semi_analytical.solve_discretised(known.scene, asked)
+        result = semi_analytical.solve_discretised(known.scene, asked)
     else:
         asked = asked.model_copy(update={"elements_per_radius": MANY if fine else FEW})
         result = fem_reference.solve(known.scene, asked, fem_reference.Method.COMPLEMENTARITY)
     steps = values_of(result)
     for truth in known.truths:
         if truth.quantity in STRESSES:
-            found: float | None = stress_maxima(result, truth.step)[truth.quantity][0]
+            found = stress_maxima(result, truth.step)[truth.quantity][0]
         else:
             found = truth.read(steps)
         if found is not None:
@@ -65,7 +62,7 @@ def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
     "family",
     [*CHEAP, *(pytest.param(name, marks=pytest.mark.slow) for name in ("oblique", "sliding"))],
 )
-def test_errors_fall_towards_the_answer(family: str) -> None:
+def test_errors_fall_towards_the_answer(family):
     """All are small on fine cells, and their geometric mean falls, chance agreements aside."""
     known = drawn(family, SEED, 0)
     coarse, fine = (np.array([*errors(known, fine=fine)]) for fine in (False, True))
@@ -84,13 +81,10 @@ def similar_under_forces(posed: Posed) -> KnownScene:
 def similar_balls() -> Similar:
     scene = drawn("pushed", SEED, 0).scene
     load, friction = scene.loading[0].normal_force, scene.friction
-    assert load is not None
-    assert friction is not None
-    assert friction.uniform is not None
     return Similar(scene, load, friction.uniform)
 
 
-def test_work_along_a_loop_is_stored_or_dissipated() -> None:
+def test_work_along_a_loop_is_stored_or_dissipated():
     balls = similar_balls()
     top = 0.8 * balls.mu * balls.load
     way = np.concatenate([np.linspace(top, -top, 301), np.linspace(-top, top, 301)[1:]])
@@ -102,7 +96,7 @@ def test_work_along_a_loop_is_stored_or_dissipated() -> None:
 
 
 @pytest.mark.slow
-def test_finer_cells_and_more_increments_agree_with_closed_forms() -> None:
+def test_finer_cells_and_more_increments_agree_with_closed_forms():
     """The rule of finer cells, on a scene with ν = 0 that has a closed form."""
     posed = FAMILIES["pushed"].posed(np.random.default_rng(SEED))
     by_forces = similar_under_forces(posed)
@@ -117,7 +111,7 @@ def test_finer_cells_and_more_increments_agree_with_closed_forms() -> None:
         assert apart <= 3 * found[key].uncertainty + 1e-6 * abs(closed[key].value), key
 
 
-def test_an_edge_at_the_border_of_coarse_tractions_has_no_stress() -> None:
+def test_an_edge_at_the_border_of_coarse_tractions_has_no_stress():
     """On half of its cells the fitted edge of this contact lies at the border of the window."""
     known = drawn("films", 86243, 30)
     result = semi_analytical.solve_discretised(known.scene, known.fineness.asked)

@@ -1,7 +1,7 @@
 """Tests of the formula of stated errors: parts, sizes, orders, and numbers that need more cells."""
 
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,7 +72,7 @@ def errors_of_one(comparisons: list[Comparison], features: Features) -> StatedEr
         (paraboloid(RIGID), None, "not converged"),  # hidden: a smooth edge slips
     ],
 )
-def test_a_stick_zone_with_a_centre_at_0_on_every_grid(indenter: Any, annulus: Any, status) -> None:
+def test_a_stick_zone_with_a_centre_at_0_on_every_grid(indenter, annulus, status):
     middle = [{"stick_centre": np.zeros(2), "stick_area": np.ones(1)}] * 2
     features = Features(contact=10.0, stick=9.7, annulus=annulus)
     same = Comparison("cells", middle, middle, [2.0, 2.0], [features] * 2)
@@ -80,14 +80,14 @@ def test_a_stick_zone_with_a_centre_at_0_on_every_grid(indenter: Any, annulus: A
     assert stated(asked, middle, [same], features, features)[1]["stick_centre"].status == status
 
 
-def test_the_annulus_of_pressing_is_nearly_that_of_spence() -> None:
+def test_the_annulus_of_pressing_is_nearly_that_of_spence():
     """It decides if slip at a rim may hide: its order of magnitude counts."""
     row = load_reference("frictional_indentation_homogeneous")["rows"][1]
     posed = scene(PRESS, indenter=paraboloid(RIGID), body=steel(row["nu"]), friction=row["mu"])
     assert 1 < (1 - row["c_over_a"]) / _annulus_of_pressing(posed) < 1.5
 
 
-def test_a_worked_example() -> None:
+def test_a_worked_example():
     """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 3 times the root mean square of
     0.06/(2^4 + 1)^½ = 0.01455 and 0.02/(1.875^4 + 1)^½ = 0.00547; increments 0.01/(2^0.6 - 1) =
     0.01939; tolerance 10·2e-8."""
@@ -120,7 +120,7 @@ def test_a_worked_example() -> None:
     [({"cells": 2.0}, 1.0), ({"cells": 0.5}, 0.5), ({"cells": 2.0, "increments": 0.5}, 1.0)],
     ids=["the run", "a finer solve", "other increments"],
 )
-def test_the_finest_solve_has_to_resolve_the_contact(ratios, finest) -> None:
+def test_the_finest_solve_has_to_resolve_the_contact(ratios, finest):
     """Four of its cells are the least, however wide those of the run are."""
     same = approach(2.0)
     compared = [Comparison(part, same, same, [ratio]) for part, ratio in ratios.items()]
@@ -155,9 +155,7 @@ HISTORIES = {
 
 @pytest.mark.parametrize("name", ["dissipated_energy", "energy_per_cycle", "torque"])
 @pytest.mark.parametrize(("history", "features", "hidden"), HISTORIES.values(), ids=HISTORIES)
-def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(
-    history, features, hidden, name
-) -> None:
+def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(history, features, hidden, name):
     """Slip at the edge of a smooth contact may be narrower than a cell; torque needs no slip."""
     steps = [{name: np.zeros(1)}] * len(history.loading)
     cells = Comparison("cells", steps, steps, [2.0] * len(steps))
@@ -170,7 +168,7 @@ def test_energy_that_no_cell_loses_is_unknown_where_the_edge_slips(
     [(1e-20, ErrorStatus.ESTIMATED), (1e-6, ErrorStatus.NOT_CONVERGED)],
     ids=["round-off", "slip"],
 )
-def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStatus) -> None:
+def test_a_shift_that_is_round_off_needs_no_cells(size, status):
     """A slip annulus narrower than half a cell leaves the shift open only where something slips."""
     one = {"approach": np.ones(1)}
     fine, coarse = ([one | {"tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
@@ -183,31 +181,29 @@ def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStat
     ("name", "expected"),
     {"torque": 15.0, "approach": 2.0, "twist": 0.4, "elastic_energy": 6.0}.items(),
 )
-def test_a_size_is_made_of_those_with_its_unit(name, expected) -> None:
+def test_a_size_is_made_of_those_with_its_unit(name, expected):
     sizes = {"approach": 2.0, "normal_force": 3.0, "contact_radius": 5.0}
     values = {key: np.array([size]) for key, size in sizes.items()}
     others = {"contact_area": np.zeros(1), "peak_pressure": np.zeros(1)}
     assert characteristic_size(name, values | others) == pytest.approx(expected)
 
 
-def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None:
+def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body():
     steps = [SimpleNamespace(worst_residual=size) for size in (1e-9, 1e-5)]
     rings = RingSolver(scene({"approach": 1e-6}), RadialDiscretisation())
-    assert rings.residuals(cast("Any", SimpleNamespace(steps=steps))) == [1e-9, 1e-5]
+    assert rings.residuals(SimpleNamespace(steps=steps)) == [1e-9, 1e-5]
     inclined = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.SHEARING))
     elements = ElementSolver(rings.scene, FiniteElementDiscretisation())
     ratio = rings.scene.body.elastic_materials[0].poisson_ratio
     left = 1 - np.cos(ratio / (4 - 2 * ratio))  # of Mindlin's slip across the load
-    assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
-        left, rel=0.01
-    )
+    assert elements.neglected_errors(inclined)["stick_radius"] == pytest.approx(left, rel=0.01)
     pushed = SimpleNamespace(
         plan=SimpleNamespace(path=ElementPath.HARMONICS),
         sections=[SimpleNamespace(outline=SimpleNamespace(box=40.0))],
     )
     mesh = FiniteElementDiscretisation(overlap=1e-3, harmonics=12)
     solver = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
-    solves = solver.mesh_coarse_solves(mesh, cast("Any", pushed))
+    solves = solver.mesh_coarse_solves(mesh, pushed)
     found = {coarse.key: (coarse.value, coarse.ratio) for coarse in solves}
     assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
 
@@ -215,7 +211,7 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
 @pytest.mark.parametrize(
     ("last", "status"), [(push(0.1), "not converged"), ({"normal_force": 2 * LOAD}, "estimated")]
 )
-def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last: dict, status: str) -> None:
+def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last, status):
     small, large = (Features(contact=10.0, stick=stick, cusp=True) for stick in (0.5, 5.0))
     peaks = [[{"peak_pressure": np.array([value])}] * 2 for value in (1.0, 1.1)]
     levels = [Comparison("cells", *peaks, [2.0, 2.0])]
@@ -229,7 +225,7 @@ def test_a_cusp_stays_unresolved_until_the_normal_load_changes(last: dict, statu
 @pytest.mark.parametrize("order", [1.0, 2.0])
 @pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
 @pytest.mark.parametrize("part", ["cells", "section"])
-def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios, part) -> None:
+def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios, part):
     """Three spreads cover a systematic error as well; the order of other parts is 2."""
     order = order if part == "cells" else 2.0
     exact, fine = 2.0, 2.0 + 0.1**order
@@ -242,7 +238,7 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios
     assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
 
 
-def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
+def test_an_error_is_no_smaller_than_that_of_an_earlier_step():
     at_2, at_3 = ({"peak_pressure": np.full(1, size)} for size in (2.0, 3.0))
     part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
     posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), Features(contact=10)
@@ -251,7 +247,7 @@ def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
     assert second == first > 0.1
 
 
-def test_components_of_a_vector_share_one_size() -> None:
+def test_components_of_a_vector_share_one_size():
     steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
     sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
     np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
@@ -278,5 +274,5 @@ def test_components_of_a_vector_share_one_size() -> None:
         ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
     ],
 )
-def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
+def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved):
     assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved

@@ -12,7 +12,6 @@ from contextlib import chdir
 from pathlib import Path
 from runpy import run_path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from command import outcome
@@ -49,13 +48,11 @@ def assert_runs(script: Path, folder: Path) -> None:
         for path in EXAMPLES
     ],
 )
-def test_example_keeps_its_promise(
-    script: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_example_keeps_its_promise(script, tmp_path, monkeypatch):
     """Commands of a script run in this process: the import of one takes longer than the command."""
     run = subprocess.run
 
-    def run_here(words: list[str], **how: Any) -> Any:
+    def run_here(words, **how):
         own = words[1:3] == ["-m", "slipstick"]
         return outcome(*words[3:], cwd=tmp_path) if own else run(words, **how)
 
@@ -68,7 +65,7 @@ def test_example_keeps_its_promise(
     assert_runs(script, tmp_path)
 
 
-def test_python_in_the_readme_runs(tmp_path: Path) -> None:
+def test_python_in_the_readme_runs(tmp_path):
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
     for fine, coarse in (
@@ -86,7 +83,7 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
 # ---- gallery
 
 
-def test_every_scene_of_the_gallery_has_its_page() -> None:
+def test_every_scene_of_the_gallery_has_its_page():
     assert {path.stem for path in SCENES.glob("*.toml")} == {entry.scene for entry in ENTRIES}
     assert len(ENTRIES) >= 12
     assert all(entry.claims for entry in ENTRIES)
@@ -109,13 +106,11 @@ def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -
         (1.02, 0.0, float("inf"), Verdict.INCONCLUSIVE),
     ],
 )
-def test_numbers_agree_within_what_both_may_be_off(
-    published: float, reading: float, error: float, verdict: Verdict
-) -> None:
+def test_numbers_agree_within_what_both_may_be_off(published, reading, error, verdict):
     assert Comparison(claim(published, reading), 1.0, error).verdict is verdict
 
 
-def test_another_verdict_than_the_page_speaks_of_is_refused() -> None:
+def test_another_verdict_than_the_page_speaks_of_is_refused():
     one = Comparison(claim(2.0, 0.1), 1.0, 0.01)
     with pytest.raises(
         UnexpectedVerdict, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"
@@ -131,23 +126,21 @@ def code_of(entry) -> list[str]:
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
-def test_every_notebook_holds_its_scene_and_code_that_compiles(entry) -> None:
+def test_every_notebook_holds_its_scene_and_code_that_compiles(entry):
     cells = code_of(entry)
     for cell in cells:
         compile(cell, entry.scene, "exec")
-    names: dict[str, str] = {}
+    names = {}
     exec(cells[0], names)
     assert names["SCENE"] == (SCENES / f"{entry.scene}.toml").read_text(encoding="utf-8")
 
 
-def test_a_notebook_solves_its_scene_and_shows_its_figures(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    shown: list[Path] = []
+def test_a_notebook_solves_its_scene_and_shows_its_figures(tmp_path, monkeypatch, capsys):
+    shown = []
     stub = SimpleNamespace(Image=lambda path: path, display=shown.append)
     monkeypatch.setitem(sys.modules, "IPython.display", stub)
     monkeypatch.chdir(tmp_path)
-    names: dict[str, object] = {}
+    names = {}
     for cell in code_of(next(entry for entry in ENTRIES if entry.scene == "paper_ball")):
         exec(cell, names)
     assert {path.name for path in shown} >= {"overview.png", "profiles.png"}

@@ -2,9 +2,6 @@
 
 import errno
 import os
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import pytest
 from command import slipstick
@@ -40,18 +37,18 @@ increments = 2
 
 
 @pytest.fixture
-def scene(tmp_path: Path) -> Path:
+def scene(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(SCENE, encoding="utf-8")
     return path
 
 
 @pytest.fixture
-def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None]:
+def solver(monkeypatch):
     """Replace the solver by one that hands out a ready result, or fails as it is told."""
 
     def replace_by(failure: Exception | None) -> None:
-        def run(solver: CellSolver, progress: Any, store: Any = None) -> Any:
+        def run(solver, progress, store=None):
             result = small_result()
             for increment in result.increments:
                 progress(increment)
@@ -89,7 +86,7 @@ FAILURES = {
 }
 
 
-def test_every_error_of_a_solver_has_a_stated_code() -> None:
+def test_every_error_of_a_solver_has_a_stated_code():
     stated = {type(failure) for failures in FAILURES.values() for failure in failures}
     assert {*SolverError.__subclasses__(), NothingTouches} <= stated
 
@@ -97,9 +94,7 @@ def test_every_error_of_a_solver_has_a_stated_code() -> None:
 @pytest.mark.parametrize(
     ("code", "failure"), [(code, each) for code, failures in FAILURES.items() for each in failures]
 )
-def test_failure_ends_with_its_code_one_message_and_no_files(
-    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str], code: int, failure: Exception
-) -> None:
+def test_failure_ends_with_its_code_one_message_and_no_files(scene, solver, capsys, code, failure):
     solver(failure)
     assert slipstick("run", scene, "--output", scene.parent / "out") == code
     errors = capsys.readouterr().err
@@ -108,9 +103,7 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert os.listdir(scene.parent) == [scene.name]
 
 
-def test_an_environment_variable_shows_where_an_error_happened(
-    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_environment_variable_shows_where_an_error_happened(scene, solver, capsys, monkeypatch):
     monkeypatch.setenv("SLIPSTICK_DEBUG", "1")
     solver(ZeroDivisionError("a defect"))
     assert slipstick("run", scene, "--output", scene.parent / "out") == 70

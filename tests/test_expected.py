@@ -1,7 +1,5 @@
 """Tests of `--save-expected` and `--expect`: a later result is held to the stated errors alone."""
 
-from typing import Any
-
 import pytest
 
 from slipstick.expected import (
@@ -42,7 +40,7 @@ def number(value: float, error: float | None, mark: str = "") -> ExpectedNumber:
         (None, (1, 0.1), "new"),
     ],
 )
-def test_numbers_are_compared_by_their_stated_errors(was: Any, now: Any, kind: str) -> None:
+def test_numbers_are_compared_by_their_stated_errors(was, now, kind):
     """No tolerance is chosen. An error with a question mark is right to an order of magnitude."""
     expected, found = (
         SOURCE.with_numbers({"step 1": {"approach": number(*one)} if one else {}})

@@ -91,7 +91,7 @@ def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, mes
 
 
 @pytest.mark.usefixtures("gmsh")
-def test_both_meshers_agree_within_the_stated_errors() -> None:
+def test_both_meshers_agree_within_the_stated_errors():
     film = Layer(thickness=4e-4, material=steel())
     body = Body(material=steel(young_modulus=210e9), layers=(film,))
     pressed = scene(PRESS, friction=None, indenter=RIGID_BALL, body=body)

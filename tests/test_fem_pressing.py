@@ -36,9 +36,7 @@ SMOOTH = scene(PRESS, friction=None)
 @pytest.mark.parametrize("method", Method)
 @pytest.mark.parametrize("times", [250.0])
 @pytest.mark.parametrize("shape", ["paraboloid", "cone", "flat punch"])
-def test_contact_radius_that_is_too_large_does_not_decide_the_answer(
-    shape: str, times: float, method: Method
-) -> None:
+def test_contact_radius_that_is_too_large_does_not_decide_the_answer(shape, times, method):
     asked = scene(PRESS, friction=None, indenter=INDENTERS[shape])
     own = solve(asked, elements(32), method).increments[-1]
     large = elements(32, contact_radius=times * own.contact_radius)
@@ -57,8 +55,8 @@ def on_film(ratio: float, thickness: float) -> Scene:
 
 @pytest.mark.parametrize("method", Method)
 def test_a_punch_that_a_stiff_coating_leaves_between_middle_and_rim_touches_less(
-    method: Method,
-) -> None:
+    method,
+):
     """The coating bends below the punch: a disc and a ring at the rim touch, as on cells."""
     film = Layer(thickness=0.275 * A, material=steel(0.45, 18 * YOUNG))
     punch = FlatPunch(radius=A, material=RIGID)
@@ -75,7 +73,7 @@ def test_a_punch_that_a_stiff_coating_leaves_between_middle_and_rim_touches_less
 @pytest.mark.parametrize(
     ("ratio", "thickness"), [(0.05, 0.2), (0.05, 2.0), (20.0, 0.2), (20.0, 2.0), (1e-3, 1e-3)]
 )
-def test_mesh_fits_the_contact_of_a_coated_body(ratio: float, thickness: float) -> None:
+def test_mesh_fits_the_contact_of_a_coated_body(ratio, thickness):
     """So that the elements over the radius are as many as asked for, whatever the layers."""
     asked = on_film(ratio, thickness)
     found = end(asked)
@@ -90,7 +88,7 @@ def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
     return solve(asked, elements(per_radius, **more), method=Method.PENALTY)
 
 
-def test_overlap_is_reported() -> None:
+def test_overlap_is_reported():
     """Springs alone overlap by p0/ε; augmentation leaves a small part of it."""
     asked = scene(PRESS, friction=None)
     springs, augmented = (penalised(asked, augmentations=n).increments[-1] for n in (0, 1))
@@ -112,7 +110,7 @@ def coated_alike(*loading: dict) -> Scene:
     return scene(*loading, indenter=indenter, body=Body(**coating))
 
 
-PATHS: dict[str, tuple[Scene, Path]] = {
+PATHS = {
     "frictionless": (SMOOTH, Path.PRESSING),
     "rigid": (scene(PRESS, indenter=RIGID_BALL), Path.PRESSING_WITH_FRICTION),
     "incompressible": (scene(PRESS, indenter=RIGID_BALL, body=HALF), Path.PRESSING),
@@ -136,7 +134,7 @@ PATHS: dict[str, tuple[Scene, Path]] = {
 
 
 @pytest.mark.parametrize(("asked", "path"), PATHS.values(), ids=PATHS)
-def test_path_follows_the_scene(asked: Scene, path: Path) -> None:
+def test_path_follows_the_scene(asked, path):
     assert plan(asked).path is path
 
 
@@ -151,17 +149,17 @@ def test_path_follows_the_scene(asked: Scene, path: Path) -> None:
         pytest.param((PRESS, {"bulk_strain": (1e-5, 1e-5, 0.0)}), (20, 20), id="strain"),
     ],
 )
-def test_steps_are_cut_where_the_path_matters(loading, counts) -> None:
+def test_steps_are_cut_where_the_path_matters(loading, counts):
     assert plan(scene(*loading)).increments == counts
 
 
-def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
+def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once():
     pushed = scene(PRESS, push(0.9), push(0.7), indenter=RIGID_BALL)
     assert plan(pushed).increments == (20, 18, 4)
 
 
 @pytest.mark.parametrize("method", Method)
-def test_a_contact_of_one_element_grows_to_the_friction_limit(method: Method) -> None:
+def test_a_contact_of_one_element_grows_to_the_friction_limit(method):
     """The first pressure of the iteration must carry the load: no neighbour corrects it."""
     force, friction = 1e-6 * LOAD, 0.3
     grown = {"normal_force": force, "tangential_force": (friction * force, 0.0)}

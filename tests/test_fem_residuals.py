@@ -1,8 +1,6 @@
 """Tests of the residuals of the finite-element solver: wrong states have large residuals."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +18,7 @@ from fem_reference.contact import increment
 
 @pytest.mark.parametrize("method", Method)
 @pytest.mark.parametrize("what", ["pressure", "shear"])
-def test_wrong_answer_of_a_solver_is_not_accepted(what: str, method: Method, monkeypatch) -> None:
+def test_wrong_answer_of_a_solver_is_not_accepted(what, method, monkeypatch):
     """The last check of an increment starts from its fields, whatever the solver says."""
     honest = increment.solve_points
 
@@ -66,15 +64,15 @@ def test_slip_at_an_angle_to_the_shear_or_below_the_limit_is_seen(angle, part):
 
 
 @pytest.mark.parametrize("place", range(3))
-def test_the_worst_is_the_one_that_is_not_a_number_wherever_it_stands(place: int) -> None:
-    measures: list[float | None] = [1e-9, 2e-9, None]
+def test_the_worst_is_the_one_that_is_not_a_number_wherever_it_stands(place):
+    measures = [1e-9, 2e-9, None]
     assert worst(*measures) == 2e-9
     measures.insert(place, float("nan"))
     assert np.isnan(worst(*measures))
 
 
 FIELD = np.ones((2, 2, 2))
-MEASURES: dict[str, tuple[Callable[..., float], tuple[Any, ...]]] = {
+MEASURES = {
     "complementarity": (complementarity, (BOUND + 1, BOUND, 0.5)),
     "penetration": (penetration, (BOUND, 0.5)),
     "friction cone": (friction_cone, (FIELD, BOUND)),
@@ -83,7 +81,7 @@ MEASURES: dict[str, tuple[Callable[..., float], tuple[Any, ...]]] = {
 
 
 @pytest.mark.parametrize("measure", MEASURES)
-def test_a_field_that_is_not_a_number_somewhere_has_no_measure(measure: str) -> None:
+def test_a_field_that_is_not_a_number_somewhere_has_no_measure(measure):
     of, given = MEASURES[measure]
     assert np.isfinite(of(*given))
     for number, argument in enumerate(given):

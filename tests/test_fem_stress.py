@@ -1,7 +1,6 @@
 """Tests of the stress by finite elements: surface, interfaces, the indenter, and refusals."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from fem_reference.mesh.section_mesh import section_mesh
-from fem_reference.stress import SectionField, SurfaceTractions, subsurface
+from fem_reference.stress import SurfaceTractions, subsurface
 from fem_reference.stress.recovery import recovery_of
 
 A = 1e-3
@@ -43,7 +42,7 @@ ALONG = replace(PRESSED, shear_along_load=MU * PRESSURE)
 
 
 @pytest.mark.parametrize("solver", ["fem", "fem-complementarity"])
-def test_the_stress_on_the_axis_of_a_flat_punch_is_that_of_its_force(solver: Any) -> None:
+def test_the_stress_on_the_axis_of_a_flat_punch_is_that_of_its_force(solver):
     """Sneddon (1946): σ_zz = -p_m/2 (1 + 3ζ²)/(1 + ζ²)², with ζ = z/a and the mean pressure p_m.
     The last Gauss point lies inside the rim, where the pressure is infinite."""
     force = 1e3
@@ -60,7 +59,7 @@ def test_the_stress_on_the_axis_of_a_flat_punch_is_that_of_its_force(solver: Any
     assert axis.stress[2, deep] == pytest.approx(exact, rel=0.02)
 
 
-def test_stress_below_a_contact_with_a_hole_has_no_pressure_there() -> None:
+def test_stress_below_a_contact_with_a_hole_has_no_pressure_there():
     """A flat tip on a stiff film of a soft body bears on a ring."""
     r = np.linspace(0.0, 2.5 * A, 401)
     tip = RevolvedProfile(file=np.stack([r, 3e-3 * A * (r / A) ** 6], axis=1), material=RIGID)
@@ -76,25 +75,25 @@ def test_stress_below_a_contact_with_a_hole_has_no_pressure_there() -> None:
     exact = largest_stresses(cells, None, names)
     assert cells.steps[-1].pressure[48, 48] == 0.0
     for solver in ("fem", "fem-complementarity"):
-        result: Any = slipstick.solve(posed, solver, elements(32))
+        result = slipstick.solve(posed, solver, elements(32))
         found = largest_stresses(result, None, names)
         for name, (value, _) in exact.items():
             assert found[name][0] == pytest.approx(value, rel=0.02), name
 
 
 @pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])
-def coated(request: pytest.FixtureRequest) -> tuple[SurfaceTractions, SectionField]:
+def coated(request):
     return request.param, subsurface(COATED, request.param, elements(12))
 
 
 def test_stress_at_the_surface_is_the_traction(
-    coated: tuple[SurfaceTractions, SectionField],
-) -> None:
+    coated,
+):
     tractions, field = coated
     r, z = field.points
     inside = (z == 0) & (r > 0.1 * A) & (r < 0.8 * A)
 
-    def at(traction: np.ndarray | None) -> np.ndarray:
+    def at(traction):
         return np.zeros(inside.sum()) if traction is None else np.interp(r[inside], RINGS, traction)
 
     along = at(tractions.shear_along_load)
@@ -110,8 +109,8 @@ def test_stress_at_the_surface_is_the_traction(
 
 
 def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
-    coated: tuple[SurfaceTractions, SectionField],
-) -> None:
+    coated,
+):
     _, field = coated
     above, below = (field.interface_points(0.5 * A, material) for material in (0, 1))
     near = field.points[0, above] < 2 * A
@@ -129,14 +128,14 @@ def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
         assert np.max(np.abs(one[RR] - demanded)) < 0.02 * P0
 
 
-def test_the_indenter_carries_the_shear_reversed() -> None:
+def test_the_indenter_carries_the_shear_reversed():
     lower = subsurface(COATED, OUTWARD, elements(8))
-    turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]
+    turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)
     upper = subsurface(COATED, turned, elements(8), upper=True)
     np.testing.assert_array_equal(upper.stress(), lower.stress())
 
 
-def test_the_grid_of_gauss_points_has_an_element_everywhere() -> None:
+def test_the_grid_of_gauss_points_has_an_element_everywhere():
     """Although coordinates of a mesh line differ by round-off from element to element."""
     film = Layer(thickness=1.23, material=IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.3))
     base = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)

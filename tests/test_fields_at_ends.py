@@ -3,9 +3,6 @@
 Every reader finds the fields, or names the option that stores them.
 """
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 from contact_scenes import LOAD, PRESS, push, scene
@@ -25,12 +22,12 @@ ENDS = np.cumsum(COUNTS) - 1
 
 
 @pytest.fixture(scope="module")
-def result() -> Any:
+def result():
     return slipstick.solve(SCENE, discretisation=slipstick.SurfaceDiscretisation(cells=(16, 16)))
 
 
 @pytest.fixture(scope="module")
-def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+def directories(result, tmp_path_factory):
     """The same result with the fields of every increment, and by default."""
     every, ends = (tmp_path_factory.mktemp(name) for name in ("every", "ends"))
     write_result(result, every, figures="none", all_fields=True)
@@ -38,9 +35,7 @@ def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[
     return every, ends
 
 
-def test_fields_are_those_at_the_ends_and_scalars_all(
-    result: Any, directories: tuple[Path, Path]
-) -> None:
+def test_fields_are_those_at_the_ends_and_scalars_all(result, directories):
     every, ends = map(slipstick.load, directories)
     for name in ("pressure", "in_contact", "gap", "shear", "slip"):
         fields = [getattr(increment, name) for increment in result.increments]
@@ -59,7 +54,7 @@ def test_fields_are_those_at_the_ends_and_scalars_all(
         assert np.array_equal(ends.last_cycle[name].array, every.last_cycle[name].array)
 
 
-def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> None:
+def test_one_increment_is_found_or_refused(directories):
     every, ends = map(slipstick.load, directories)
     for row in ENDS.tolist():
         one, other = ends.increment(row), every.increment(row)

@@ -1,10 +1,8 @@
 """Tests of the indenters: the gap at first touch."""
 
 import re
-from collections.abc import Callable
 from decimal import Decimal, localcontext
-from pathlib import Path
-from typing import Any, get_args
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -23,7 +21,6 @@ from contact_scene import (
     LineProfile,
     Paraboloid,
     RevolvedProfile,
-    Scene,
     Sphere,
     Strip,
     SurfaceDiscretisation,
@@ -43,7 +40,7 @@ R = 0.018
 
 
 @pytest.mark.parametrize("r", [1e-9, 1e-6, 1e-3, 0.01, 0.0179999, 0.018 - 3.5e-18, 0.018 - 1e-12])
-def test_the_sphere_is_the_exact_arc_without_cancellation(r: float) -> None:
+def test_the_sphere_is_the_exact_arc_without_cancellation(r):
     with localcontext() as context:
         context.prec = 60
         exact = Decimal(R) - (Decimal(R) ** 2 - Decimal(r) ** 2).sqrt()
@@ -61,7 +58,7 @@ def centres(count: int, spacing: float) -> NDArray[np.float64]:
 
 
 @given(st.floats(1e-9, 1e3), st.integers(4, 33), st.integers(4, 33))
-def test_a_height_map_gives_its_own_values_to_round_off(spacing: float, nx: int, ny: int) -> None:
+def test_a_height_map_gives_its_own_values_to_round_off(spacing, nx, ny):
     values = heights(nx, ny)
     shape = HeightMap(material=RIGID, file=values, spacing=(spacing, 2 * spacing))
     # Another formula for the same centres, as a solver's grid may have.
@@ -70,7 +67,7 @@ def test_a_height_map_gives_its_own_values_to_round_off(spacing: float, nx: int,
     np.testing.assert_allclose(gap - gap.min(), values - values.min(), rtol=0, atol=4e-15)
 
 
-def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None:
+def test_first_touch_of_a_height_map_is_the_minimum_between_its_points():
     for seed in range(5):
         shape = HeightMap(material=RIGID, file=heights(seed=seed), spacing=1.0)
         x, y = np.linspace(-5.5, 5.5, 441), np.linspace(-4.0, 4.0, 321)  # 40 per spacing
@@ -78,7 +75,7 @@ def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None
 
 
 @pytest.mark.parametrize("count", [12, 13])
-def test_a_map_touches_first_on_its_flat_and_not_beside_it(count: int) -> None:
+def test_a_map_touches_first_on_its_flat_and_not_beside_it(count):
     """Cubic convolution dips below a flat by 2/27 of the adjacent height."""
     x, y = centres(count, 1.0)[:, None], centres(count, 1.0)
     odd = [np.hypot(x, y)] * (count % 2)  # two equal values between larger ones are a smooth tip
@@ -92,7 +89,7 @@ def test_a_map_touches_first_on_its_flat_and_not_beside_it(count: int) -> None:
 
 
 @given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 2.0))
-def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u: float, v: float, bent: float) -> None:
+def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u, v, bent):
     """The tip may lie between the points."""
     x, y = centres(12, 1.0)[:, None], centres(13, 1.0)
     shape = HeightMap(material=RIGID, file=np.square(x - u) + bent * np.square(y - v), spacing=1.0)
@@ -102,13 +99,13 @@ def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u: float, v: float, bent
         np.testing.assert_allclose(found, exact, rtol=0, atol=1e-6)
 
 
-def test_a_height_map_is_even_about_both_planes_or_not_at_all() -> None:
+def test_a_height_map_is_even_about_both_planes_or_not_at_all():
     x, y = centres(6, 1.0)[:, None], centres(5, 1.0)
     maps = (HeightMap(material=RIGID, file=x**2 + y**2 + odd, spacing=1.0) for odd in (0 * x, x, y))
     assert [shape.is_even for shape in maps] == [True, False, False]
 
 
-def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
+def test_a_window_beyond_the_height_map_is_refused_with_both_lengths():
     shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
     shape.initial_gap(6e-3, 4.5e-3)
     for x in (-6.1e-3, 6.1e-3, np.array([0.0, 6.1e-3, -1e-3])):
@@ -118,14 +115,14 @@ def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
         shape.initial_gap(0.0, np.nan)
 
 
-def tip(radii: Any, height: Any, **more: Any) -> RevolvedProfile:
+def tip(radii, height, **more):
     """A profile of revolution by some of its points."""
     return RevolvedProfile(material=RIGID, file=np.stack([radii, height(radii)], axis=1), **more)
 
 
 @pytest.mark.parametrize("first", [0.0, 0.07])
 @pytest.mark.parametrize("power", [1.0, 1.7])
-def test_a_profile_of_a_paraboloid_is_the_paraboloid(first: float, power: float) -> None:
+def test_a_profile_of_a_paraboloid_is_the_paraboloid(first, power):
     """Even at the axis, and whether or not it has a point there."""
     shape = tip(first + np.linspace(0, 1, 9) ** power, lambda r: 3.0 + r**2 / 2)
     r = np.linspace(0, 1, 101)
@@ -135,17 +132,17 @@ def test_a_profile_of_a_paraboloid_is_the_paraboloid(first: float, power: float)
 
 
 @given(st.integers(4, 40), st.floats(0.1, 0.8))
-def test_a_profile_does_not_dip_below_its_flat(count: int, flat: float) -> None:
+def test_a_profile_does_not_dip_below_its_flat(count, flat):
     shape = tip(np.linspace(0, 1, count) ** 1.2, lambda r: np.maximum(r - flat, 0.0))
     gap = shape.initial_gap(np.linspace(0, 1, 401), 0.0)
     assert np.all(np.diff(gap) >= -1e-15)
     assert shape.lowest_radius == gap[0] == 0
 
 
-def test_a_profile_is_read_in_any_order_unit_and_sign(tmp_path: Path) -> None:
+def test_a_profile_is_read_in_any_order_unit_and_sign(tmp_path):
     whole = tip(1e-6 * np.array([0.0, 2.0, 3.0, 5.0]), lambda r: 1e-3 * r)
     table = np.array([[0.0, 2.0, 3.0, 5.0], [0.0, 2.0, 3.0, 5.0]])
-    more: Any = {"material": RIGID, "radius_unit": "um", "height_unit": "nm"}
+    more = {"material": RIGID, "radius_unit": "um", "height_unit": "nm"}
     (tmp_path / "tip.csv").write_text("r;z\n0;0\n2;2,0\n3;3\n5;5\n", encoding="utf-8")
     read = {"folder": tmp_path}
     for shape in (
@@ -201,12 +198,12 @@ NEW = (
 ALL = SHAPED | st.sampled_from(NEW)
 
 
-def on(shape: ShapedBody, **update: Any) -> Scene:
+def on(shape, **update):
     """A scene with any indenter, one that no file can name included."""
     return scene(PRESS, friction=None).model_copy(update={"indenter": shape, **update})
 
 
-def test_every_shape_is_registered_everywhere() -> None:
+def test_every_shape_is_registered_everywhere():
     branches = get_args(get_args(Indenter)[0])
     assert [get_args(branch)[0] for branch in branches] == list(REGISTERED.values())
     assert [get_args(branch)[1].tag for branch in branches] == [f"<{name}>" for name in REGISTERED]
@@ -216,7 +213,7 @@ def test_every_shape_is_registered_everywhere() -> None:
 
 
 @given(ALL, st.floats(1e-9, 0.5), st.floats(0, 2 * np.pi))
-def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle) -> None:
+def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle):
     x, y = np.multiply(shape.extent or (1.0, 1.0), reach) * (np.cos(angle), np.sin(angle))
     assert not np.isnan(shape.initial_gap(x, y))
     if shape.is_even:
@@ -252,14 +249,14 @@ def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle) -> None:
         (Cone(material=RIGID, slope_angle=0.3), ConeContact.under_load(800.0, 0.3, 2e9)),
     ],
 )
-def test_a_contact_is_as_large_as_in_closed_form(shape: Any, exact: Any) -> None:
+def test_a_contact_is_as_large_as_in_closed_form(shape, exact):
     a, k = exact.contact_radius, shape.gap_exponent
     assert shape.contact_at(exact.approach)[0] == pytest.approx(a**k, rel=1e-12)
     assert shape.contact_under(800.0, 2e9)[0] == pytest.approx(a ** (k + 1), rel=1e-12)
 
 
 @given(ALL, st.floats(1e-9, 1.0), st.floats(1e3, 1e12))
-def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
+def test_a_contact_grows_with_the_load(shape, approach, modulus):
     for of in (shape.contact_at, lambda load: shape.contact_under(load, modulus)):
         smaller, larger = of(approach), of(2 * approach)
         assert (smaller is None) == (larger is None)
@@ -269,7 +266,7 @@ def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
             assert shape.gap_exponent is not None
 
 
-ON: dict[str, Callable[[Scene], Any]] = {
+ON = {
     "cells": lambda asked: solve_discretised(asked, SurfaceDiscretisation(cells=(16, 16))),
     "elements": lambda asked: solve_by_elements(asked, elements(4, box=10.0)),
 }
@@ -278,7 +275,7 @@ ON: dict[str, Callable[[Scene], Any]] = {
 @pytest.mark.parametrize("solve", ON.values(), ids=ON)
 @given(shape=ALL)
 @settings(max_examples=15)
-def test_solvers_solve_or_refuse_any_shape(solve, shape) -> None:
+def test_solvers_solve_or_refuse_any_shape(solve, shape):
     try:
         solved = solve(on(shape))
     except SolverError:
@@ -288,7 +285,7 @@ def test_solvers_solve_or_refuse_any_shape(solve, shape) -> None:
 
 @given(ALL.filter(lambda shape: not shape.is_of_revolution))
 @settings(max_examples=15)
-def test_elements_refuse_shapes_neither_of_revolution_nor_symmetric_lines(shape) -> None:
+def test_elements_refuse_shapes_neither_of_revolution_nor_symmetric_lines(shape):
     if shape.is_line and shape.is_even:
         assert plan_of_elements(on(shape)).effects
         return
@@ -299,7 +296,7 @@ def test_elements_refuse_shapes_neither_of_revolution_nor_symmetric_lines(shape)
 
 
 @pytest.mark.parametrize("shape", NEW, ids=lambda shape: type(shape).__name__)
-def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape) -> None:
+def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape):
     with pytest.raises(UnsupportedScene, match="Set window"):
         solve_discretised(on(shape), SurfaceDiscretisation(cells=(16, 16)))
     window = (6 * A, 6 * A)

@@ -1,7 +1,5 @@
 """Tests of normal and tangential loads that grow together without slip, in all solvers."""
 
-from typing import Any
-
 import pytest
 from contact_scenes import (
     APPROACH,
@@ -26,7 +24,7 @@ from contact_scene import (
 )
 
 # The discretisation, and its error of the shift over that of gross slip.
-SOLVERS: dict[str, tuple[Any, float]] = {
+SOLVERS = {
     "semi-analytical": (SurfaceDiscretisation(cells=(64, 64)), 1e-4),
     "radial": (RadialDiscretisation(), 1e-5),
     "fem": (FiniteElementDiscretisation(elements_per_radius=16), 2e-3),

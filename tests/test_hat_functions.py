@@ -18,7 +18,7 @@ def nodes(draw):
 
 
 @given(nodes(), st.lists(st.floats(-2, 2), min_size=3, max_size=3), st.data())
-def test_integrals_are_those_up_to_the_rim(radii, parabola, data) -> None:
+def test_integrals_are_those_up_to_the_rim(radii, parabola, data):
     """∫ u t r dr for u quadratic and t linear, the area and its moment; at a rim is half a hat."""
     rim = data.draw(st.sampled_from(list(radii[2::2])))
     hats = hats_on(radii, rim)

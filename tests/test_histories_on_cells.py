@@ -37,7 +37,7 @@ def test_a_history_cannot_go_on_from_the_limit():
         solved(PRESS, {"tangential_force": (limit, 0.0)}, push(0.5), friction=friction)
 
 
-def test_a_slide_that_turns_slides_again_once_shear_has_turned_too() -> None:
+def test_a_slide_that_turns_slides_again_once_shear_has_turned_too():
     """Meanwhile nothing sticks, and friction does less than it could along the new way."""
     turns = slide(100.5, 0.5), slide(100.5, 100)
     steps = solved(PRESS, slide(100), *turns).steps

@@ -48,7 +48,7 @@ LONG = {
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def made(tmp_path_factory):
     """A scene, a run of it, a challenge that is answered, and a report."""
     folder = tmp_path_factory.mktemp("made")
     (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
@@ -67,7 +67,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def place(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def place(made, tmp_path, monkeypatch):
     """A directory of one's own with links to all that; its output is to be `out`."""
     monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "cache"))
     inside = tmp_path / "inside"
@@ -120,9 +120,7 @@ def in_the_way(kind: str, place: Path) -> str:
     "kind", ["queue", "loop", "inside a loop", "below a file", "no name", "long"]
 )
 @pytest.mark.parametrize("words", (COMMANDS | LONG).values(), ids=COMMANDS | LONG)
-def test_what_is_in_the_way_is_named_and_left_alone(
-    words: tuple[str, ...], kind: str, place: Path
-) -> None:
+def test_what_is_in_the_way_is_named_and_left_alone(words, kind, place):
     name = in_the_way(kind, place)
     before = everything(place)
     ended = outcome(*words, name, cwd=place)
@@ -132,9 +130,7 @@ def test_what_is_in_the_way_is_named_and_left_alone(
 
 
 @pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
-def test_a_full_disk_ends_the_command_and_leaves_nothing(
-    words: tuple[str, ...], place: Path
-) -> None:
+def test_a_full_disk_ends_the_command_and_leaves_nothing(words, place):
     before = everything(place)
     with files_of_at_most(60):
         ended = outcome(*words, "out", cwd=place)

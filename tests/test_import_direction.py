@@ -39,7 +39,7 @@ LAYERS = (
 PACKAGES = tuple(dict.fromkeys(name.partition(".")[0] for row in LAYERS for name in row))
 
 # What the modules of a package may not import from earlier rows or libraries, and exceptions.
-FORBIDDEN: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+FORBIDDEN = {
     "contact_scene": (("scipy",), ()),
     # It knows arrays and functions: a dense 4x4 matrix is as good an operator as any.
     "contact_solver": (
@@ -119,7 +119,7 @@ def circles(imported: dict[str, list[str]], packages: set[str]) -> Iterator[str]
     packages  packages whose modules and folders have no circle
     """
     for package in packages:
-        graph: dict[str, set[str]] = {}
+        graph = {}
         for name, targets in imported.items():
             if name != package and within(name, package):
                 inside = [t for t in targets if t != package and within(t, package)]
@@ -144,7 +144,7 @@ def violations(root: Path) -> list[str]:
     return [reason for reason in reasons if reason]
 
 
-def test_imports_go_one_way() -> None:
+def test_imports_go_one_way():
     assert violations(ROOT) == []
 
 
@@ -196,11 +196,11 @@ def plant(root: Path, sources: dict[str, str]) -> None:
 
 
 @pytest.mark.parametrize("file", PLANTED)
-def test_planted_violation_is_caught(tmp_path: Path, file: str) -> None:
+def test_planted_violation_is_caught(tmp_path, file):
     plant(tmp_path, SOUND | {file: PLANTED[file]})
     assert len(violations(tmp_path)) == 1
 
 
-def test_sound_imports_pass(tmp_path: Path) -> None:
+def test_sound_imports_pass(tmp_path):
     plant(tmp_path, SOUND)
     assert violations(tmp_path) == []

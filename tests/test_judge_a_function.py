@@ -1,7 +1,5 @@
 """Tests of `slipstick judge FILE.py:FUNCTION --case CASE`: exit codes and refusals."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import time
@@ -26,7 +24,7 @@ PEAK = {HERTZ.peak_pressure!r}
 """
 
 
-def judge(*arguments: object) -> int:
+def judge(*arguments):
     return slipstick("judge", *arguments)
 
 
@@ -161,7 +159,7 @@ JUDGED = ("changes_the_problem", "keeps_a_thread", "doubles_itself", "own_type",
 
 
 @pytest.fixture
-def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def hostile(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", list(sys.path))
     young = posed("hertz_point").scene["body"]["material"]["young_modulus"]
@@ -174,7 +172,7 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="functions in memo
 
 @on_linux
 @pytest.mark.parametrize("name", [*FAILED, *REFUSED])
-def test_function_without_an_answer_fails_by_name(hostile: Path, name: str) -> None:
+def test_function_without_an_answer_fails_by_name(hostile, name):
     solve = named_solver(f"{hostile}:{name}")
     error, said = (SolverFailed, FAILED) if name in FAILED else (Refused, REFUSED)
     seconds = 1.0 if "within" in said[name] else 60.0
@@ -186,16 +184,14 @@ def test_function_without_an_answer_fails_by_name(hostile: Path, name: str) -> N
 
 @on_linux
 @pytest.mark.parametrize("name", JUDGED)
-def test_function_cannot_change_what_is_judged(hostile: Path, name: str) -> None:
+def test_function_cannot_change_what_is_judged(hostile, name):
     found = judge_function("hertz_point", named_solver(f"{hostile}:{name}"), 2, "A")
     assert found.exit_code() == 0, found.rows
     assert all(type(answer) is Answer for answer in found.answers)
 
 
 @pytest.mark.parametrize("seconds", [None, 60.0])
-def test_answer_changed_on_a_later_level_is_judged_as_it_was(
-    hostile: Path, seconds: float | None
-) -> None:
+def test_answer_changed_on_a_later_level_is_judged_as_it_was(hostile, seconds):
     solve = named_solver(f"{hostile}:changes_its_answer")
     found = judge_function("hertz_point", solve, 2, seconds=seconds)
     values = [answer.value(("approach", 1)) for answer in found.answers]
@@ -210,9 +206,7 @@ def test_answer_changed_on_a_later_level_is_judged_as_it_was(
         ("changes_the_problem", 60, 0, "hertz_point"),
     ],
 )
-def test_command_survives_the_function(
-    hostile: Path, capfd: pytest.CaptureFixture[str], name: str, seconds: int, code: int, said: str
-) -> None:
+def test_command_survives_the_function(hostile, capfd, name, seconds, code, said):
     """And what the function has printed before its end is shown."""
     case = ("--case", "hertz_point", "--levels", "2", "--seconds", seconds)
     assert judge(f"{hostile}:{name}", *case) == code
@@ -220,9 +214,7 @@ def test_command_survives_the_function(
     assert said in told.out + told.err
 
 
-def test_file_that_leaves_while_it_is_imported_fails(
-    hostile: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_file_that_leaves_while_it_is_imported_fails(hostile, capfd):
     hostile.write_text("import os\nos._exit(0)\n")
     assert judge(f"{hostile}:right", "--case", "hertz_point") == 3
     assert "ended without an answer on level 0: exit code 0" in capfd.readouterr().err
@@ -230,7 +222,7 @@ def test_file_that_leaves_while_it_is_imported_fails(
 
 @on_linux
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
-def test_function_ends_with_the_command(hostile: Path, number: int, code: int) -> None:
+def test_function_ends_with_the_command(hostile, number, code):
     with hostile.open("a") as file:
         file.write(
             "def endless(problem, level):\n"

@@ -1,7 +1,5 @@
 """Tests of the GitHub action that judges solvers: its exit code is that of the command."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess
@@ -44,7 +42,7 @@ def act(folder: Path, **inputs: str) -> tuple[int, str]:
     return done.returncode, summary.read_text() if summary.exists() else done.stderr
 
 
-def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
+def test_a_failure_on_any_case_is_that_of_the_action(tmp_path):
     (tmp_path / "mine.py").write_text(FILE)
     code, page = act(
         tmp_path, SOLVER="mine.py:off", CASES="hertz_point coated_paraboloid/E1_over_E2=2"
@@ -64,13 +62,11 @@ def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("inputs", [{}, {"SOLVER": "a.py:f", "ANSWERS": "b"}, {"ANSWERS": "none"}])
-def test_inputs_that_name_nothing_to_judge_are_refused(
-    tmp_path: Path, inputs: dict[str, str]
-) -> None:
+def test_inputs_that_name_nothing_to_judge_are_refused(tmp_path, inputs):
     assert act(tmp_path, **inputs)[0] == 2
 
 
-def test_pip_gets_versions_that_it_takes_with_a_folder(tmp_path: Path) -> None:
+def test_pip_gets_versions_that_it_takes_with_a_folder(tmp_path):
     """With a hash among them it would install no folder."""
     said = tmp_path / "said"
     stand_in = tmp_path / "python"
@@ -85,7 +81,7 @@ def test_pip_gets_versions_that_it_takes_with_a_folder(tmp_path: Path) -> None:
     assert not any("hash" in line or line.endswith("\\") for line in versions if line[:1] != "#")
 
 
-def test_no_input_is_pasted_into_the_shell() -> None:
+def test_no_input_is_pasted_into_the_shell():
     text = (ACTION / "action.yml").read_text(encoding="utf-8")
     runs = re.findall(r"^ +run: (.+)$", text, re.MULTILINE)
     assert runs

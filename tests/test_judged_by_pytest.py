@@ -1,7 +1,5 @@
 """Tests of the pytest plugin that judges solvers: verdicts become test outcomes."""
 
-from __future__ import annotations
-
 import pytest
 
 from verification import Answer
@@ -87,7 +85,7 @@ def answer(problem: Posed, level: int) -> Answer:
 
 
 @pytest.mark.parametrize("name", OUTCOMES)
-def test_verdicts_are_outcomes(pytester: pytest.Pytester, name: str) -> None:
+def test_verdicts_are_outcomes(pytester, name):
     more, option, outcome, said = OUTCOMES[name]
     pytester.makepyfile(challenge_mine=f"OFF, RADIUS = 1e-4, 'contact_radius'\n{SOLVER}\n{more}")
     judgement = judge("hertz_point", answer, 2)

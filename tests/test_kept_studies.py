@@ -8,7 +8,6 @@ import pytest
 from verification.judging.case import Level
 from verification.running.study import (
     Conclusion,
-    Records,
     Settings,
     StudyRecord,
     dump_study,
@@ -45,7 +44,7 @@ def ended(cell: StabilityCell) -> CellRecord:
 def today(name: str) -> Conclusion:
     """What today's code concludes at that level, from no records but those of the map."""
     level = Level[kept(name).level.upper()]
-    records: Records = {}
+    records = {}
     if name == "stability":
         cells = study_cells(level, CELLS[level])
         records = {cell.name: ended(cell).of_cell(cell) for cell in cells}
@@ -53,19 +52,19 @@ def today(name: str) -> Conclusion:
 
 
 @pytest.mark.parametrize("name", sorted(KEPT))
-def test_a_kept_record_is_written_as_it_is_kept(name: str) -> None:
+def test_a_kept_record_is_written_as_it_is_kept(name):
     """Nothing of it is lost by being read, and nothing is kept that says nothing."""
     assert dump_study(kept(name)) == (STUDY_FILES / name / "study.json").read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", ["coated-tractions", "stability"])
-def test_a_kept_record_answers_what_is_asked_today(name: str) -> None:
+def test_a_kept_record_answers_what_is_asked_today(name):
     assert kept(name).question == STUDIES[name].question
     claims = [statement.claim for statement in kept(name).conclusion.statements]
     assert claims == [statement.claim for statement in today(name).statements]
 
 
-def test_the_kept_map_has_the_cells_of_today_place_by_place() -> None:
+def test_the_kept_map_has_the_cells_of_today_place_by_place():
     old, new = kept("stability").conclusion, today("stability")
     counts = [[row[:2] for row in conclusion.tables[0].rows] for conclusion in (old, new)]
     assert counts[0] == counts[1]

@@ -1,11 +1,9 @@
 """Tests of the lines of keys in TOML files: right in valid documents, harmless in all others."""
 
 import tomllib
-from typing import Any
 
 import pytest
 
-from contact_scene.reading.scene_error import Path as KeyPath
 from contact_scene.reading.toml_file import (
     MAX_DEPTH,
     NestedTooDeep,
@@ -47,7 +45,7 @@ z = 1
 [deep]
 y = 2
 '''
-LINES: dict[KeyPath, int] = {
+LINES = {
     ("title",): 2,
     ("indenter",): 4,
     ("indenter", "shape"): 5,
@@ -75,16 +73,16 @@ LINES: dict[KeyPath, int] = {
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
-def test_every_form_of_key_is_found(newline: str) -> None:
+def test_every_form_of_key_is_found(newline):
     document = EXAMPLE.replace("\n", newline)
     located = locate_keys(document)
     assert {path: located.get(path) for path in LINES} == LINES
     assert set(located) == paths_in(tomllib.loads(document))
 
 
-def paths_in(value: Any, path: KeyPath = ()) -> set[KeyPath]:
+def paths_in(value, path=()):
     """Every key and array entry of a parsed document."""
-    entries: Any = ()
+    entries = ()
     if isinstance(value, dict):
         entries = value.items()
     elif isinstance(value, list):
@@ -98,7 +96,7 @@ def paths_in(value: Any, path: KeyPath = ()) -> set[KeyPath]:
     ["a = " + "[" * 5000, "a = " + "{a=" * 5000, "a." * 5000 + "a = 1", "[" + "a." * 5000 + "a]"],
     ids=["arrays", "tables", "keys", "headers"],
 )
-def test_nesting_beyond_all_use_is_refused_with_its_line(text: str) -> None:
+def test_nesting_beyond_all_use_is_refused_with_its_line(text):
     with pytest.raises(NestedTooDeep, match="line 3"):
         locate_keys("\n\n" + text)
     at_most = "a = " + "[" * (MAX_DEPTH - 1) + "]" * (MAX_DEPTH - 1)

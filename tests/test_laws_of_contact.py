@@ -1,7 +1,6 @@
 """Tests of the laws of contact, friction and energy in hard load histories, with every solver."""
 
 from functools import partial
-from typing import Any
 
 import contact_scenes
 import coupled_scenes
@@ -46,7 +45,7 @@ SPACING = 3 * A / CELLS
 AT = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * SPACING
 
 
-def assert_lawful(result: Any, friction: Any, bound: float) -> None:
+def assert_lawful(result, friction, bound):
     """Observed violations are within a bound; no tension, overlap or shear above µp; energy is
     lost."""
     assert observed(result).violation <= bound
@@ -91,7 +90,7 @@ def patchy_friction() -> dict:
     return {"map": values, "spacing": SPACING}
 
 
-def surface(heights: np.ndarray) -> Any:
+def surface(heights):
     return partial(HeightMap, file=heights, spacing=SPACING)
 
 
@@ -100,7 +99,7 @@ CIRCLE = [push(0.8 * np.cos(t), 0.8 * np.sin(t), increments=3) for t in ANGLES]
 TURN = MU * LOAD * A
 PATH = press(), push(0.6)
 # Load steps, and what differs from the ball; a shape takes its material from the bodies.
-OF_ANY_BODIES: dict[str, tuple[tuple[dict, ...], dict[str, Any]]] = {
+OF_ANY_BODIES = {
     "rough surface": ((press(), push(0.6), push(-0.3, 0.4)), {"shape": surface(rough())}),
     "two contacts": ((press(0.1), push(0.07), push(-0.07)), {"shape": surface(two_bumps())}),
     "mapped friction with zeros": (
@@ -162,7 +161,7 @@ BODIES = {
     ("bodies", "name"),
     [(bodies, name) for bodies, (*_, histories) in BODIES.items() for name in histories],
 )
-def test_histories_on_cells_obey_all_laws_without_smaller_increments(bodies, name) -> None:
+def test_histories_on_cells_obey_all_laws_without_smaller_increments(bodies, name):
     make, material, histories = BODIES[bodies]
     loading, given = histories[name]
     more = dict(given)
@@ -231,7 +230,7 @@ NOT_ON_RADII = (
 
 @pytest.mark.parametrize("name", ON_RINGS)
 @pytest.mark.parametrize("solver", ["fem", "fem-complementarity"])
-def test_histories_on_elements_obey_all_laws(solver: Any, name: str) -> None:
+def test_histories_on_elements_obey_all_laws(solver, name):
     more = {"augmentations": 0} if name in SPRINGS_ALONE else {}
     mesh = FiniteElementDiscretisation(elements_per_radius=6, harmonics=4, overlap=1.0, **more)
     result = slipstick.solve(ON_RINGS[name], solver, mesh)
@@ -242,12 +241,12 @@ def test_histories_on_elements_obey_all_laws(solver: Any, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in ON_RINGS if name not in NOT_ON_RADII])
-def test_histories_on_radii_obey_all_laws(name: str) -> None:
+def test_histories_on_radii_obey_all_laws(name):
     result = slipstick.solve(ON_RINGS[name], "radial", RadialDiscretisation())
     assert_lawful(result, ON_RINGS[name].friction, OVER_RINGS)
 
 
-SOLVERS: dict[str, Any] = {
+SOLVERS = {
     "semi-analytical": SurfaceDiscretisation(cells=(24, 24), tolerance=1e-9, edge="off"),
     "radial": RadialDiscretisation(rings=12),
     "fem": FiniteElementDiscretisation(elements_per_radius=8, harmonics=4, overlap=0.1),
@@ -265,7 +264,7 @@ TOO_MUCH = {
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("name", TOO_MUCH)
-def test_more_than_friction_carries_is_refused(name: str, solver: Any) -> None:
+def test_more_than_friction_carries_is_refused(name, solver):
     """Nothing in the scene tells it: the pressure is part of the solution."""
     described, words = TOO_MUCH[name]
     with pytest.raises(GrossSliding, match=words) as caught:
@@ -283,7 +282,7 @@ NOTHING = (0.0, 0.0)
 # Load steps after pressing, and the state at their end: status, tangential force, and shift (None:
 # undefined; ANY: not the same in all solvers).
 ANY = "any"
-ENDS: dict[str, tuple[Any, tuple[dict, ...], ContactStatus, tuple, Any]] = {
+ENDS = {
     "at the limit": (ALIKE, (push(1.0),), SLIDES, (LIMIT, 0.0), None),
     "at the limit, obliquely": (ALIKE, (push(0.6, 0.8),), SLIDES, (0.6 * LIMIT, 0.8 * LIMIT), None),
     "at the limit, coupled": (UNLIKE, (push(1.0),), SLIDES, (LIMIT, 0.0), None),
@@ -304,7 +303,7 @@ ENDS: dict[str, tuple[Any, tuple[dict, ...], ContactStatus, tuple, Any]] = {
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("name", ENDS)
-def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> None:
+def test_a_load_ends_in_one_state_with_every_solver(name, solver):
     make, steps, status, force, shift = ENDS[name]
     end = slipstick.solve(make(press(increments=2), *steps), solver, SOLVERS[solver]).steps[-1]
     assert end.status is status
@@ -316,7 +315,7 @@ def test_a_load_ends_in_one_state_with_every_solver(name: str, solver: Any) -> N
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_little_friction_shears_in_proportion_to_it(solver: Any) -> None:
+def test_little_friction_shears_in_proportion_to_it(solver):
     """But for terms of the order µ, and the overlap of a penalty; its passes scatter by round-off
     over µ."""
     found, on, least, near = [], SOLVERS[solver], 1e-7, 1e-4
@@ -342,7 +341,7 @@ BY_LOAD = {
 
 @pytest.mark.parametrize("solver", [name for name in SOLVERS if name != "fem"])
 @pytest.mark.parametrize("name", BY_LOAD)
-def test_a_load_and_its_motion_lead_to_the_same_state(name: str, solver: Any) -> None:
+def test_a_load_and_its_motion_lead_to_the_same_state(name, solver):
     """But for the springs of a penalty, whose last overlap depends on the way there."""
     load, motion = BY_LOAD[name]
     make = UNLIKE if name.endswith("coupled") else ALIKE
@@ -351,7 +350,7 @@ def test_a_load_and_its_motion_lead_to_the_same_state(name: str, solver: Any) ->
             slipstick.plan(make(press(), load), solver)
         return
 
-    def solved(step: dict) -> Any:
+    def solved(step):
         return slipstick.solve(make(press(), {**step, "increments": 1}), solver, SOLVERS[solver])
 
     by_load = solved(load)

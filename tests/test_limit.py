@@ -58,13 +58,13 @@ def yield_on_axis(nu: float) -> tuple[float, float]:
     return stress(at.x), float(at.x)
 
 
-def error_of(one: Any) -> float:
+def error_of(one):
     assert one.error.status == "estimated"
     return float(one.error.error)
 
 
 @pytest.mark.parametrize("nu", [0.3, 0.5])
-def test_ball_yields_below_and_cracks_at_the_edge(nu: float) -> None:
+def test_ball_yields_below_and_cracks_at_the_edge(nu):
     """p0 = 1.60 Y at 0.48 a for nu = 0.3 (Johnson 1985), and tension (1 - 2nu)/3 p0 (Huber)."""
     ball = Paraboloid(radius=R, material=steel(nu))
     body = Body(material=steel(nu, yield_strength=YIELD, tensile_strength=TENSILE))
@@ -96,7 +96,7 @@ COMPONENTS = {
 
 
 @pytest.mark.parametrize("number", [0, 1])
-def test_load_factor_multiplies_every_control(number: int) -> None:
+def test_load_factor_multiplies_every_control(number):
     values = {pair[number]: COMPONENTS.get(pair[number], 0.01) for pair in CONTROLS}
     doubled = {name: np.multiply(2, value).tolist() for name, value in values.items()}
     step = LoadStep(**values, increments=3)
@@ -114,7 +114,7 @@ class Formula(LoadFactorSearch):
 
     law: Any = None
 
-    def largest_stresses(self, x: float) -> Any:
+    def largest_stresses(self, x):
         if x not in self.solved:
             value = self.law(exp(x))
             place = SimpleNamespace(value=value, x=0.0, y=0.0, depth=0.0)
@@ -122,13 +122,13 @@ class Formula(LoadFactorSearch):
             self.solved[x] = {} if value <= 0 else {KEY: (place, end)}
         return self.solved[x]
 
-    def _error_of_factor(self, *given: Any) -> Any:
+    def _error_of_factor(self, *given):
         return unknown_error("a formula")
 
 
-def search_root(law: Any) -> tuple[Any, int]:
+def search_root(law):
     """Critical load of a law of the load factor for the strength 1, and the number of solves."""
-    search = Formula(None, {KEY: 1.0}, None, law=law)  # type: ignore[arg-type]
+    search = Formula(None, {KEY: 1.0}, None, law=law)
     search.largest_stresses(0.0)
     return search.critical_load(KEY), len(search.solved)
 
@@ -147,26 +147,25 @@ def search_root(law: Any) -> tuple[Any, int]:
         (lambda f: 1.0, 1.0, 2),  # independent of the load, at the strength
     ],
 )
-def test_root_is_found_in_few_solves(law, exact, solves) -> None:
+def test_root_is_found_in_few_solves(law, exact, solves):
     found, made = search_root(law)
     assert found.load_factor == pytest.approx(exact, rel=1e-3)
     assert made <= solves
 
 
 @pytest.mark.parametrize("law", [lambda f: 0.5, lambda f: 0.01 * f**0.2, lambda f: 0.0])
-def test_limit_beyond_the_range_is_told_so(law) -> None:
+def test_limit_beyond_the_range_is_told_so(law):
     found, made = search_root(law)
     assert (found.load_factor, found.below) == (None, pytest.approx(100.0))
     assert made <= 4
 
 
-def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
-    def law(factor: float) -> float:
+def test_solver_that_refuses_a_larger_load_ends_the_search():
+    def law(factor):
         if factor > 4:
             raise ContactAtWindowEdge("the contact reaches the edge")
         return 0.4 * factor ** (1 / 3)
 
     one, _ = search_root(law)
     assert (one.load_factor, one.below) == (None, 1.0)
-    assert one.reason is not None
     assert "the contact reaches the edge" in one.reason

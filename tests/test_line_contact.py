@@ -33,7 +33,7 @@ HALF_WIDTH = float(np.sqrt(4 * FORCE * RADIUS / (np.pi * MODULUS)))
 PEAK = 2 * FORCE / (np.pi * HALF_WIDTH)
 
 
-def document(*loading: dict[str, Any], **changes: Any) -> dict[str, Any]:
+def document(*loading, **changes):
     """A steel cylinder on a steel half-space."""
     indenter = {"shape": "cylinder", "radius": RADIUS, "material": STEEL}
     indenter |= {"reference_length": REFERENCE} | changes.pop("indenter", {})
@@ -46,7 +46,7 @@ def document(*loading: dict[str, Any], **changes: Any) -> dict[str, Any]:
     }
 
 
-def solved(*loading: dict[str, Any], cells: int = 256, **changes: Any) -> Any:
+def solved(*loading, cells=256, **changes):
     scene = Scene.model_validate(document(*loading, **changes))
     return solve_discretised(scene, SurfaceDiscretisation(cells=cells))
 
@@ -86,7 +86,7 @@ def dense_displacement(stack: Stack, width: float, x: np.ndarray, far: float) ->
 
 
 @pytest.mark.parametrize("name", STACKS)
-def test_coefficients_are_sums_over_all_wavenumbers(name: str) -> None:
+def test_coefficients_are_sums_over_all_wavenumbers(name):
     stack, width, places = STACKS[name], 0.5, np.array([0, 1, 2, 5, 10, 23])
     found = StripCoefficients(stack, width, (42, 3), 1.0)
     dense = dense_displacement(stack, width, width * places, 40 * width)
@@ -103,7 +103,7 @@ def test_coefficients_are_sums_over_all_wavenumbers(name: str) -> None:
 # ---- Profiles
 
 
-def test_a_profile_of_the_cylinder_has_its_half_width() -> None:
+def test_a_profile_of_the_cylinder_has_its_half_width():
     x = np.linspace(-2e-3, 2.4e-3, 221)
     profile = np.stack([x, x**2 / (2 * RADIUS)])
     shape = {"shape": "line_profile", "radius": None, "file": profile}
@@ -117,7 +117,7 @@ def test_a_profile_of_the_cylinder_has_its_half_width() -> None:
 
 
 @pytest.mark.parametrize("name", ["stiff", "soft", "two layers"])
-def test_tractions_and_strain_are_continuous_at_an_interface(name: str) -> None:
+def test_tractions_and_strain_are_continuous_at_an_interface(name):
     stack = STACKS[name]
     above, below = (strip_responses(stack, Level(1.0, layer), 0.1, 60) for layer in (0, 1))
     rows = {response: n for n, response in enumerate(RESPONSES)}
@@ -138,19 +138,19 @@ def test_tractions_and_strain_are_continuous_at_an_interface(name: str) -> None:
 # ---- Plane-strain elements
 
 PUSH = 0.5 * FRICTION * FORCE
-PRESS_AND_PUSH: tuple[dict[str, Any], ...] = (
+PRESS_AND_PUSH = (
     {"normal_force": FORCE},
     {"tangential_force": [PUSH, 0]},
 )
 
 
-def solved_on_elements(*loading: dict[str, Any], **changes: Any) -> Any:
+def solved_on_elements(*loading, **changes):
     scene = Scene.model_validate(document(*loading, **changes))
     mesh = FiniteElementDiscretisation(elements_per_radius=16)
     return fem_reference.solve(scene, mesh, Method.COMPLEMENTARITY)
 
 
-def test_the_area_of_a_line_contact_is_resolved_as_its_two_edges() -> None:
+def test_the_area_of_a_line_contact_is_resolved_as_its_two_edges():
     result = solved_on_elements({"normal_force": FORCE})
     solver, (end,) = ElementSolver.of(result), result.steps
     features = solver.measure_features(result, end)
@@ -160,7 +160,7 @@ def test_the_area_of_a_line_contact_is_resolved_as_its_two_edges() -> None:
 
 
 @pytest.mark.parametrize("solve", [solved, solved_on_elements])
-def test_motions_alone_depend_on_the_reference_length(solve: Any) -> None:
+def test_motions_alone_depend_on_the_reference_length(solve):
     """They grow by the logarithm of the length; without a length they are unknown."""
     near, far, none = (
         solve(*PRESS_AND_PUSH, indenter={"reference_length": length}).steps[1]
@@ -176,7 +176,7 @@ def test_motions_alone_depend_on_the_reference_length(solve: Any) -> None:
     assert unknown == (None, None, None, None)
 
 
-def test_the_stress_below_elements_is_that_below_strips() -> None:
+def test_the_stress_below_elements_is_that_below_strips():
     """Von Mises stress by closed forms, and tension behind the pushed contact."""
     found = [
         extremes(body_response(state_of_result(result, 2)).stress())
@@ -194,7 +194,7 @@ def maxima(found: list[Any]) -> dict[tuple[str, str], Any]:
 
 
 @cache
-def below_layer(solve: Any, widths: float) -> tuple[Any, Any, Any]:
+def below_layer(solve, widths):
     """Pressed cylinder on a layer of so many half widths, twice as stiff as its base: the state,
     the stress and its maxima."""
     coat = {"thickness": widths * HALF_WIDTH, "material": STEEL | {"young_modulus": 420e9}}
@@ -208,7 +208,7 @@ STRIPS = partial(solved, cells=128)
 
 
 @pytest.mark.parametrize(("widths", "region"), [(1.0, "surface"), (1.0, "base"), (20.0, "surface")])
-def test_a_bent_layer_has_its_tension_beyond_the_contact(widths: float, region: str) -> None:
+def test_a_bent_layer_has_its_tension_beyond_the_contact(widths, region):
     """Two to three thicknesses from the middle."""
     one, other = (
         maxima(below_layer(solve, widths)[2])[region, "max_principal"]
@@ -222,7 +222,7 @@ def test_a_bent_layer_has_its_tension_beyond_the_contact(widths: float, region: 
 
 
 @pytest.mark.parametrize("widths", [1.0, 20.0])
-def test_the_errors_of_stresses_far_from_the_contact_are_covered(widths: float) -> None:
+def test_the_errors_of_stresses_far_from_the_contact_are_covered(widths):
     """Elements grow with the distance, at the interface and where a bent layer has its tension."""
     state, field, found = below_layer(solved_on_elements, widths)
     known = maxima(below_layer(STRIPS, widths)[2])
@@ -231,14 +231,13 @@ def test_the_errors_of_stresses_far_from_the_contact_are_covered(widths: float) 
     for one, error in zip(found, errors, strict=True):
         if one.region.split()[0] in ("base", "interface") and (one.region, one.measure) in known:
             exact = known[one.region, one.measure].value
-            assert error.error is not None
             assert abs(one.value - exact) <= error.error <= 0.05 * exact, one
             assert one.value == pytest.approx(exact, rel=0.01)
             judged += 1
     assert judged >= 7
 
 
-def test_the_surface_is_a_region_of_depth_zero_alone() -> None:
+def test_the_surface_is_a_region_of_depth_zero_alone():
     coat = {"thickness": HALF_WIDTH, "material": {"young_modulus": 400e9, "poisson_ratio": 0.3}}
     body = {"material": STEEL, "layers": [coat]}
     result = solved(cells=64, body=body, friction=None)

@@ -20,16 +20,14 @@ from contact_scene.stepping.load_path import along_one_line, first_direction
     ("last", "straight"),
     [((-6.0, -8.0), True), ((0.0, 0.0), True), ((4.0, 4.0), False), ((3.0, -4.0), False)],
 )
-def test_the_direction_is_that_of_the_first_push_and_a_line_goes_both_ways(
-    last: tuple[float, float], straight: bool
-) -> None:
+def test_the_direction_is_that_of_the_first_push_and_a_line_goes_both_ways(last, straight):
     ramps = scene(
         {"normal_force": 200.0}, {"tangential_force": (3.0, 4.0)}, {"tangential_force": last}
     ).load_path()
     assert (first_direction(ramps), along_one_line(ramps)) == ((0.6, 0.8), straight)
 
 
-def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:
+def test_a_moment_tips_a_map_over_its_shorter_side_alone():
     narrow = HeightMap.model_validate(
         {"file": np.zeros((8, 4)), "spacing": 1e-3, "material": steel()}
     )

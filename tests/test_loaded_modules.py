@@ -1,6 +1,5 @@
 """Tests of loaded modules: an import, a command or a verification case loads what it needs."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -62,7 +61,7 @@ ON_ELEMENTS = (*PUSHED, "--solver", "fem", "--set", "fem_reference.elements_per_
 NO_ELEMENTS = ("fem_reference", "rich", "verification")
 NO_CELLS = ("semi_analytical", "rich", "verification")
 # Program, its arguments, a module that it loads, and modules that it does not load.
-LOADED: dict[str, tuple[str, Sequence[str], str, Sequence[str]]] = {
+LOADED = {
     "package": (
         "import slipstick",
         (),
@@ -93,7 +92,7 @@ LOADED: dict[str, tuple[str, Sequence[str], str, Sequence[str]]] = {
 
 
 @pytest.mark.parametrize("name", LOADED)
-def test_nothing_is_loaded_that_is_not_needed(name: str, tmp_path: Path) -> None:
+def test_nothing_is_loaded_that_is_not_needed(name, tmp_path):
     program, words, needed, rooms = LOADED[name]
     loaded = imported_after(program, *words, cwd=tmp_path)
     assert needed in loaded

@@ -6,7 +6,6 @@ Every increment is reported once, and the final state is that of a few increment
 import gc
 import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from contact_scenes import PRESS, push, scene
 
 import slipstick
 from contact_scene.quantities import stored_fields
-from contact_scene.quantities.increment import ReportedIncrement
 
 EARLY = 0.3  # of the increments: all is allocated, and fields go into the file
 
@@ -26,7 +24,7 @@ def resident_bytes() -> int:
     return 1024 * int(status.partition("VmRSS:")[2].split()[0])
 
 
-FINENESS: dict[str, Any] = {
+FINENESS = {
     "semi-analytical": slipstick.SurfaceDiscretisation(cells=(16, 16), edge="off"),
     "radial": slipstick.RadialDiscretisation(rings=16),
 }
@@ -46,20 +44,18 @@ MANY = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 
 @pytest.mark.parametrize("count", [100, MANY])
 @pytest.mark.parametrize("solver", FINENESS)
-def test_memory_is_flat_and_the_end_that_of_a_few(
-    solver: str, count: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_memory_is_flat_and_the_end_that_of_a_few(solver, count, monkeypatch):
     monkeypatch.setattr(stored_fields, "MAX_IN_MEMORY", 1 << 20)
-    seen: list[int] = []
-    memory: list[int] = []
+    seen = []
+    memory = []
 
-    def watch(increment: ReportedIncrement) -> None:
+    def watch(increment):
         if increment.step == 2:
             seen.append(increment.index)
             if increment.index in (round(EARLY * count), count):
                 memory.append(resident_bytes())
 
-    solve: Any = slipstick.solve
+    solve = slipstick.solve
     result = solve(pushed(solver, count), solver, FINENESS[solver], progress=watch)
     assert seen == [*range(1, count + 1)]
     assert memory[1] <= 1.01 * memory[0]

@@ -4,7 +4,6 @@ import sys
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import contact_scenes
 import pytest
@@ -103,7 +102,7 @@ DEAR = {
 }
 
 
-def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path) -> None:
+def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(scene(256), encoding="utf-8")
     contents = read_scene_file(path)
@@ -122,7 +121,7 @@ def _bytes(side: int, decided: Plan, domain: ReducedDomain) -> int:
     return estimated_bytes(grid, replace(decided, symmetry=domain))
 
 
-def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path: Path) -> None:
+def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path):
     """With shear, the edge correction uses the work space of the shear: a mirror plane saves as
     much as in pressing alone."""
     pressed, pushed = (_plan_of(scene(64, then=then), tmp_path) for then in ("", PUSHED))
@@ -137,7 +136,7 @@ def test_mirror_planes_save_memory_unless_they_pass_through_cells(tmp_path: Path
     assert with_shear == pytest.approx(alone)
 
 
-def test_each_effect_and_each_edge_cell_takes_memory(tmp_path: Path) -> None:
+def test_each_effect_and_each_edge_cell_takes_memory(tmp_path):
     for then in ("", PUSHED):
         decided = _plan_of(scene(64, then=then), tmp_path)
         alone = replace(decided, edge="off")
@@ -217,7 +216,7 @@ DEAR_ONES = {"semi-analytical": DEAR, "radial": RADIAL_DEAR}
         for name, text in scenes.items()
     ],
 )
-def test_estimated_memory_is_the_peak_of_the_run(solver: str, text: str, tmp_path: Path) -> None:
+def test_estimated_memory_is_the_peak_of_the_run(solver, text, tmp_path):
     """Of solves, coarse solves, files and figures."""
     (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
     ended = run(tmp_path, "run", "scene.toml", "-o", "out", "--solver", solver)
@@ -226,9 +225,7 @@ def test_estimated_memory_is_the_peak_of_the_run(solver: str, text: str, tmp_pat
     assert found == pytest.approx(ended.memory * 2**20, rel=WITHIN)
 
 
-def test_what_does_not_fit_is_refused_before_it_is_begun(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_does_not_fit_is_refused_before_it_is_begun(tmp_path, monkeypatch):
     path = tmp_path / "scene.toml"
     path.write_text(radial_scene(3e-6, friction=FRICTION), encoding="utf-8")
     described = read_scene_file(path).scene
@@ -238,7 +235,7 @@ def test_what_does_not_fit_is_refused_before_it_is_begun(
         radial.solve(described)
 
 
-def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Path) -> None:
+def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(radial_scene(2e-5), encoding="utf-8")
     ended = outcome("plan", path, "--solver", "radial", cwd=tmp_path)
@@ -253,18 +250,18 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
 
 
 def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     """Fields of the whole volume. The estimate adds the numbers of the file to their peak."""
     film = Layer(thickness=A, material=steel(young_modulus=2 * YOUNG))
     body = Body(material=steel(), layers=(film,))
     posed = contact_scenes.scene(PRESS, friction=None, indenter=RIGID_BALL, body=body)
     state = state_of_result(solve(posed, grid(64), 1e-6), 1)
-    required: list[int] = []
+    required = []
     monkeypatch.setattr(stress_field, "FIXED", 0)
     monkeypatch.setattr(machine, "available_bytes", lambda: max(required, default=1 << 40))
 
-    def stress_in_volume() -> Any:
+    def stress_in_volume():
         return OnCells(state, see_edge=False).stress(volume=True).volume
 
     tracemalloc.start()

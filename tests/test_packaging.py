@@ -28,7 +28,7 @@ def tree(root: Path) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def source(tmp_path_factory):
     """A copy of what a wheel is made of: building writes into its source tree."""
     copy = tmp_path_factory.mktemp("source")
     for package in PACKAGES:
@@ -39,7 +39,7 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def built(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def built(source, tmp_path_factory):
     """The wheel."""
     directory = tmp_path_factory.mktemp("built")
     build = f"from setuptools.build_meta import build_wheel; build_wheel({str(directory)!r})"
@@ -48,7 +48,7 @@ def built(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return wheel
 
 
-def test_wheel_holds_every_file_of_the_packages(source: Path, built: Path) -> None:
+def test_wheel_holds_every_file_of_the_packages(source, built):
     expected = tree(source)
     with zipfile.ZipFile(built) as wheel:
         packed = {name for name in wheel.namelist() if ".dist-info/" not in name}
@@ -56,7 +56,7 @@ def test_wheel_holds_every_file_of_the_packages(source: Path, built: Path) -> No
     assert sorted(packed - expected) == []
 
 
-def test_citation_and_changelog_are_of_the_version_that_is_installed() -> None:
+def test_citation_and_changelog_are_of_the_version_that_is_installed():
     version = PROJECT["version"]
     assert importlib.metadata.version("slipstick") == version
     assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
@@ -68,7 +68,7 @@ def test_citation_and_changelog_are_of_the_version_that_is_installed() -> None:
         assert released[1] == version
 
 
-def test_nothing_is_installed_without_its_pin_and_hash() -> None:
+def test_nothing_is_installed_without_its_pin_and_hash():
     """A file that was exchanged at the registry is refused, and what has no pin is missing."""
     script = (ROOT / "run").read_text(encoding="utf-8")
     assert re.search(r"^ +pip=\(.* --no-deps\)$", script, re.MULTILINE)

@@ -23,7 +23,7 @@ LIMITS = {
 
 
 @pytest.mark.parametrize("package", LIMITS)
-def test_few_texts_have_a_habit(package: str) -> None:
+def test_few_texts_have_a_habit(package):
     found = [
         (f"{path.relative_to(ROOT)}:{line}", habits(text, kind))
         for kind_of in ("*.py", "*.md")
@@ -37,7 +37,7 @@ def test_few_texts_have_a_habit(package: str) -> None:
 
 
 @pytest.mark.parametrize("package", sorted(LIMITS.keys() - {"verification", "docs"}))
-def test_short_private_functions_have_short_docstrings(package: str) -> None:
+def test_short_private_functions_have_short_docstrings(package):
     found = [
         f"{path.relative_to(ROOT)}:{line} {name}"
         for path in sorted((ROOT / package).rglob("*.py"))

@@ -17,7 +17,6 @@ from fem_scenes import solved
 
 import radial
 from contact_scene import Scene
-from contact_solver.conjugate_gradients import Map
 from contact_solver.newton_increment import solve_by_newton
 from contact_solver.pressure import PressureProblem
 from contact_solver.shear import ShearProblem
@@ -33,11 +32,11 @@ from semi_analytical.increments import normal_solve, tangential_solve
 Law = Callable[[Any, float], Any]
 
 
-def disc(z: Any, limit: Any) -> Any:
+def disc(z, limit):
     return z * np.minimum(1, limit / np.maximum(np.hypot(*z), 1e-300))
 
 
-def by_projected_gradient(apply: Map, law: Law, shape: Any) -> Any:
+def by_projected_gradient(apply, law, shape):
     """Fixed point of a law: function of the trial tractions t - step u, and of the step."""
     t = v = np.random.default_rng(1).random(shape)
     for _ in range(20):  # largest eigenvalue of the compliance
@@ -54,7 +53,7 @@ def by_projected_gradient(apply: Map, law: Law, shape: Any) -> Any:
     raise AssertionError("the projected gradient method did not converge")
 
 
-def again(problem: Any, solution: Any) -> tuple[Any, Any]:
+def again(problem, solution):
     """Tractions of a solution, and those by projected gradients at its rigid motions."""
     if isinstance(problem, PressureProblem):
         closed = problem.gap - problem.closure(solution.motion)
@@ -69,7 +68,7 @@ def again(problem: Any, solution: Any) -> tuple[Any, Any]:
     closed = problem.gap - problem.pressing.closure(solution.closing)
     slip = problem.target + problem.shifting.displacement(solution.motion)
 
-    def law(t: Any, step: float) -> Any:
+    def law(t, step):
         p = np.maximum(t[2] - step * closed, 0)
         return np.stack([*disc(t[:2] + step * slip, problem.friction_limit(p)), p])
 
@@ -114,10 +113,10 @@ def drawn(seed: int, *, of_revolution: bool = False) -> Scene:
 
 def keep_increments(monkeypatch: pytest.MonkeyPatch, *solvers: tuple[Any, str]) -> list[Any]:
     """A list to which these functions, by module and name, append their problems and solutions."""
-    kept: list[Any] = []
+    kept = []
 
-    def watched(solver: Any) -> Any:
-        def solve_and_keep(problem: Any, *given: Any, **more: Any) -> Any:
+    def watched(solver):
+        def solve_and_keep(problem, *given, **more):
             solution = solver(problem, *given, **more)
             kept.append((problem, solution))
             return solution
@@ -139,9 +138,7 @@ def assert_same_tractions(kept: list[Any]) -> None:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_drawn_increments_on_cells_have_the_tractions_of_projected_gradients(
-    seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_drawn_increments_on_cells_have_the_tractions_of_projected_gradients(seed, monkeypatch):
     kept = keep_increments(
         monkeypatch,
         (normal_solve, "solve_pressure"),
@@ -155,8 +152,8 @@ def test_drawn_increments_on_cells_have_the_tractions_of_projected_gradients(
 @pytest.mark.parametrize("law", Method)
 @pytest.mark.parametrize("seed", range(6))
 def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
-    seed: int, law: Method, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    seed, law, monkeypatch
+):
     names = ("solve_pressure", "solve_shear", "solve_together")
     kept = keep_increments(monkeypatch, *((point_problem, name) for name in names))
     solved(drawn(seed, of_revolution=True), 6, law, harmonics=3)
@@ -164,9 +161,7 @@ def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(
-    seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(seed, monkeypatch):
     names = ("solve_by_newton", "solve_together")
     kept = keep_increments(monkeypatch, *((ring_friction, name) for name in names))
     asked = drawn(seed, of_revolution=True)
@@ -178,7 +173,7 @@ def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(
     assert RingSolver.of(result).unknowns(result) == last.pressure.size + last.shear.size
 
 
-def test_a_loose_tolerance_gives_admissible_tractions(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_loose_tolerance_gives_admissible_tractions(monkeypatch):
     """Exact inverses: iterates far from the solution are not admissible and do not count."""
     kept = keep_increments(monkeypatch, (point_problem, "solve_together"))
     solved(drawn(3, of_revolution=True), 6, harmonics=3)

@@ -4,7 +4,6 @@ round-off."""
 import math
 import re
 import warnings
-from collections.abc import Callable
 from datetime import timedelta
 from decimal import Decimal
 from fractions import Fraction
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
-from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.geometry import HeightMap
@@ -35,7 +34,6 @@ from contact_scene.reading.units import (
     PRESSURE,
     SHARE,
     STIFFNESS,
-    Kind,
     equal_unit,
 )
 from slipstick import LoadStep, Paraboloid
@@ -60,14 +58,12 @@ from slipstick import LoadStep, Paraboloid
         (PoissonRatio, 0.5, 0.5),
     ],
 )
-def test_a_text_with_a_unit_is_the_literal_in_si_to_the_last_bit(
-    kind: Any, written: Any, expected: float
-) -> None:
+def test_a_text_with_a_unit_is_the_literal_in_si_to_the_last_bit(kind, written, expected):
     assert TypeAdapter(kind).validate_python(written) == expected
 
 
 @pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE])
-def test_each_unit_of_a_table_has_the_factor_of_another_registry(kind: Kind) -> None:
+def test_each_unit_of_a_table_has_the_factor_of_another_registry(kind):
     assert len(kind.units) > 3
     for unit, factor in kind.units.items():
         apart = re.sub("N(?=m)", "N ", unit)  # "Nm" is a nanometre there
@@ -85,7 +81,7 @@ WRITTEN = """
 
 
 @pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE, SHARE])
-def test_a_suggested_unit_has_the_size_of_the_written_one(kind: Kind) -> None:
+def test_a_suggested_unit_has_the_size_of_the_written_one(kind):
     pairs = [(written, equal_unit(written, kind)) for written in {*WRITTEN.split()} - {*kind.units}]
     sizes = {pair: size_of_one_in(*pair) for pair in pairs if pair[1] is not None}
     assert sizes == pytest.approx(dict.fromkeys(sizes, 1.0))
@@ -99,15 +95,14 @@ def size_of_one_in(written: str, suggested: str) -> float:
     apart, known = (
         re.sub("N(?=m)", "N ", re.sub("(?<=m)2", "^2", unit)) for unit in (written, suggested)
     )
-    size: float = UNITS.Quantity(1.0, apart).to(known).magnitude
-    return size
+    return UNITS.Quantity(1.0, apart).to(known).magnitude
 
 
 # ---- numbers of other libraries
 
 
 HEIGHTS = 1e-6 * np.arange(16.0).reshape(4, 4)
-UNITS: Any = pint.UnitRegistry()
+UNITS = pint.UnitRegistry()
 
 
 class WithUnits(np.ndarray[Any, Any]):
@@ -122,7 +117,7 @@ class Series:
     def __init__(self, *values: float) -> None:
         self.values = np.array(values)
 
-    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+    def __array__(self, dtype=None, copy=None):
         return self.values
 
     def __float__(self) -> float:
@@ -140,11 +135,11 @@ class Millimetres(float):
     unit = "mm"
 
 
-def with_units(values: Any) -> Any:
+def with_units(values):
     return np.asarray(values).view(WithUnits)
 
 
-def masked(values: Any) -> Any:
+def masked(values):
     return np.ma.masked_array(values, mask=np.ones(np.shape(values), bool))
 
 
@@ -181,42 +176,40 @@ NO_HEIGHTS = (
 )
 
 
-def radius(value: Any) -> Any:
-    return Paraboloid(radius=value, material="rigid").radius  # type: ignore[arg-type]
+def radius(value):
+    return Paraboloid(radius=value, material="rigid").radius
 
 
 @pytest.mark.parametrize("value", SAME, ids=repr)
-def test_a_number_of_any_library_is_its_own_bits(value: Any) -> None:
+def test_a_number_of_any_library_is_its_own_bits(value):
     found = radius(value)
     assert type(found) is (WithUnit if isinstance(value, str) else float)
     assert found == (0.018 if isinstance(value, str) else float(value))
 
 
-def test_arrays_and_whole_numbers_of_numpy_are_taken() -> None:
-    step = LoadStep(tangential_force=np.array([1.0, 2.0]), increments=np.int64(5))  # type: ignore[arg-type]
+def test_arrays_and_whole_numbers_of_numpy_are_taken():
+    step = LoadStep(tangential_force=np.array([1.0, 2.0]), increments=np.int64(5))
     assert (step.tangential_force, step.increments) == ((1.0, 2.0), 5)
     for values in (HEIGHTS, HEIGHTS.astype("f4"), (1e6 * HEIGHTS).astype(int), HEIGHTS.T):
-        taken = HeightMap(file=values, spacing=1e-6, material="rigid").file.values  # type: ignore[arg-type]
+        taken = HeightMap(file=values, spacing=1e-6, material="rigid").file.values
         assert np.array_equal(taken, values)
         assert not np.shares_memory(taken, values)
 
 
-REFUSALS: tuple[tuple[Callable[[Any], BaseModel], Any], ...] = (
-    (lambda value: Paraboloid(radius=value, material="rigid"), NO_LENGTH),  # type: ignore[arg-type]
+REFUSALS = (
+    (lambda value: Paraboloid(radius=value, material="rigid"), NO_LENGTH),
     (lambda value: LoadStep(normal_force=1.0, increments=value), NO_COUNT),
     (lambda value: SurfaceDiscretisation(cells=(value, 16)), NO_COUNT),
     (lambda value: FiniteElementDiscretisation(elements_per_radius=value), NO_COUNT),
     (lambda value: LoadStep(tangential_force=value), NO_PAIR),
-    (lambda value: HeightMap(file=value, spacing=1e-6, material="rigid"), NO_HEIGHTS),  # type: ignore[arg-type]
+    (lambda value: HeightMap(file=value, spacing=1e-6, material="rigid"), NO_HEIGHTS),
 )
 
 
 @pytest.mark.parametrize(
     ("make", "value"), [(make, value) for make, values in REFUSALS for value in values]
 )
-def test_what_is_no_length_count_pair_or_height_is_refused(
-    make: Callable[[Any], BaseModel], value: Any
-) -> None:
+def test_what_is_no_length_count_pair_or_height_is_refused(make, value):
     """By one exception, without a warning, that says what came in words that can be printed."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -227,6 +220,6 @@ def test_what_is_no_length_count_pair_or_height_is_refused(
         assert len(detail["msg"]) < 300
 
 
-def test_a_quantity_with_a_unit_is_told_what_to_write() -> None:
+def test_a_quantity_with_a_unit_is_told_what_to_write():
     with pytest.raises(ValidationError, match=r'write a text such as "18 mm", or .* in m'):
         radius(UNITS.Quantity(18, "mm"))

@@ -1,10 +1,7 @@
 """Tests of the radial solver on points (r, θ): angular range and increments."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import contact_scenes
 import numpy as np
@@ -14,7 +11,7 @@ from coupled_scenes import bulk, press, push, scene
 from numpy.testing import assert_allclose
 
 import radial
-from contact_scene import CoulombFriction, Scene
+from contact_scene import CoulombFriction
 from contact_scene.solver_errors import ContactAtZoneEdge
 from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
@@ -31,13 +28,13 @@ from radial.tangential.tangential_steps import TangentialSteps
 FRICTION = 0.3
 
 
-def rough(asked: Scene, **how: Any) -> radial.Result:
+def rough(asked, **how):
     """On half the rings, which obey the same laws."""
     plan = how.pop("plan", None) or radial.plan(asked)
     return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
 
 
-def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
+def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image():
     pushes = (push(part, friction=FRICTION, increments=3) for part in (0.6, 0.0))
     asked = scene(press(increments=4), *pushes, body=bulk(), friction=FRICTION)
     half = rough(asked)
@@ -57,14 +54,12 @@ def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
 @pytest.mark.parametrize(
     ("circle", "vector"), [(RingAngles.HALF, (0.8, 0.0)), (RingAngles.WHOLE, (0.8, -0.6))]
 )
-def test_a_vector_that_is_the_same_everywhere_remains_so_between_points(
-    circle: RingAngles, vector: tuple[float, float]
-) -> None:
+def test_a_vector_that_is_the_same_everywhere_remains_so_between_points(circle, vector):
     """On the axis as well, where all angles have one vector; splines of 8 angles err by 1e-3."""
     asked = scene(press(), body=bulk())
     found = create_points(Coupling.of(asked), asked.indenter, [A], 6, 4, circle, FRICTION)
 
-    def components(angles: np.ndarray) -> np.ndarray:
+    def components(angles):
         cos, sin = np.cos(angles), np.sin(angles)
         return np.stack([np.dot(vector, (cos, sin)), np.dot(vector, (-sin, cos))])
 
@@ -95,19 +90,19 @@ def pressed() -> PointState:
     return solve_increment(alike(), LAW, loads, None, TOLERANCE)
 
 
-def test_a_first_guess_has_pressure_where_the_surfaces_overlap() -> None:
+def test_a_first_guess_has_pressure_where_the_surfaces_overlap():
     led = Loads((None, None, None, None), (0.0, 0.0, 0.0, 0.5 * APPROACH))
     *_, p = RingProblem.of(alike(), LAW, led, None).guess_closed_gap()[:-4].reshape(3, -1)
     assert np.array_equal(p > 0, alike().gap_areas < 0.5 * APPROACH * alike().areas)
 
 
-def test_a_contact_beyond_the_rings_is_refused() -> None:
+def test_a_contact_beyond_the_rings_is_refused():
     loads = Loads((0.0, None, None, 4 * LOAD), (None, 0.0, 0.0, None))
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
         solve_increment(alike(), LAW, loads, None, TOLERANCE)
 
 
-def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:
+def test_one_angle_says_all_of_what_is_the_same_all_around():
     points = alike()
     still = Loads((None, None, None, LOAD), (0.0, 0.0, 0.0, None))
     turned = solve_increment(points.axisymmetric, LAW, still, None, TOLERANCE).repeat_angles(points)

@@ -1,7 +1,5 @@
 """Tests of the compliance of traction rings, for each angular harmonic, against closed forms."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 
@@ -53,7 +51,7 @@ def hat(i: int, r: float) -> float:
 
 
 @pytest.mark.parametrize("ratio", [1e-4, 0.3, 0.69, 0.72, 0.97])
-def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio: float) -> None:
+def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio):
     found = equal_order_kernels(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
     assert_allclose(
         found, [weber_schafheitlin(m, m, ratio, 1.0) for m in range(13)], rtol=3e-13, atol=0
@@ -62,8 +60,8 @@ def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio:
 
 @pytest.mark.parametrize("name", ["equal_order", "shifted", "stepped"])
 @pytest.mark.parametrize(("m", "i", "j"), [(1, 2, 3), (2, 1, 7)])
-def test_energies_of_hats_are_their_kernels_integrated(name: str, m: int, i: int, j: int) -> None:
-    def weighted(s: float, r: float) -> float:
+def test_energies_of_hats_are_their_kernels_integrated(name, m, i, j):
+    def weighted(s, r):
         return hat(i, r) * hat(j, s) * kernel(name, m, r, s) * r * s
 
     total = 0.0
@@ -97,6 +95,6 @@ def homogeneous() -> np.ndarray:
     return ring_compliance(pair(SOFT), NODES, 1.0, HIGHEST)
 
 
-def test_a_layer_of_the_material_below_it_changes_nothing() -> None:
+def test_a_layer_of_the_material_below_it_changes_nothing():
     same = ring_compliance(pair(SOFT, (SOFT, 0.4)), NODES, 1.0, HIGHEST)
     assert_allclose(same, homogeneous(), atol=1e-13)

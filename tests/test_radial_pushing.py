@@ -1,7 +1,5 @@
 """Tests of friction on rings: full stick, slip narrower than a ring, and refusals."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -14,14 +12,14 @@ from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from slipstick import stated_errors
 
 
-def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name() -> None:
+def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name():
     pushed = push(0.3, friction=0.3, increments=4)
     sticky = scene(press(increments=4), pushed, body=bulk(), friction=50.0)
     with pytest.raises(UnsupportedScene, match="narrower than a ring"):
         radial.solve(sticky, plan=replace(radial.plan(sticky), fineness=0.5))
 
 
-def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
+def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does():
     """Rings begin to slip one at a time, more of them than Newton's method has steps elsewhere.
     Spence 1968, by superposition of bonded punches: δ = 8.089263338 µm."""
     base = IsotropicMaterial(young_modulus=3e9 / 0.013, poisson_ratio=0.0)
@@ -29,7 +27,7 @@ def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
     assert radial.solve(sticky).steps[0].approach == pytest.approx(8.089263338e-6, rel=1.5e-3)
 
 
-def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
+def test_slip_that_is_narrower_than_rings_is_told_by_its_name():
     """All but the edge sticks; and the coefficient is named, which is what helps."""
     film = Layer(thickness=A, material=steel(young_modulus=2 * YOUNG))
     body = Body(material=steel(0.0), layers=(film,))
@@ -41,7 +39,7 @@ def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
     assert radial.solve(weaker).steps[0].stick_radius is not None
 
 
-def test_a_stick_zone_within_the_first_ring_leaves_numbers_open() -> None:
+def test_a_stick_zone_within_the_first_ring_leaves_numbers_open():
     """Friction of pressing alone slides nothing as a whole: the axis sticks. Without the push, the
     other method resolves peak and radius; rings at the same edge do not show their error."""
     loads = press(increments=4), push(0.3, friction=0.01)

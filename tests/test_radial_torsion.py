@@ -1,9 +1,5 @@
 """Tests of torsion by the radial solver: energies of the fields, control, limit and refusal."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -49,7 +45,7 @@ def incompressible(modulus: float, thickness: float) -> Body:
     return Body(material=SOFT, layers=(Layer(thickness=thickness, material=layer),))
 
 
-def scene_of(body: Body, *steps: LoadStep, indenter: ShapedBody = UNIT_BALL, **more: Any) -> Scene:
+def scene_of(body, *steps, indenter=UNIT_BALL, **more):
     loading = (LoadStep(normal_force=2.0), *steps)
     friction = CoulombFriction(coefficient=FRICTION)
     return Scene(
@@ -88,7 +84,7 @@ STIFF = incompressible(3.0, 0.5)
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("body", [BARE, STIFF])
-def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> None:
+def test_torque_and_energies_are_those_of_the_fields(shape, body):
     contact, torsion = twisted(body, SHAPES[shape])
     state = torsion.partial_slip(0.6)
     r, shear, moved, area = _over_disc(state, contact)
@@ -101,7 +97,7 @@ def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> 
         assert np.all(shear <= FRICTION * pressure(contact, r) * (1 + 1e-9))
 
 
-def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
+def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it():
     torsion = twisted(BARE)[1]
     far = 2 * torsion.partial_slip(0.5).twist
     first = TwistPath(torsion).continue_to_twist(far)
@@ -111,7 +107,7 @@ def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
     assert lost > 3 * first.dissipated > 0
 
 
-def test_slip_that_does_not_begin_at_the_edge_is_refused() -> None:
+def test_slip_that_does_not_begin_at_the_edge_is_refused():
     """A punch on a stiff layer presses little in the middle."""
     punch = FlatPunch(radius=1.0, material=SOFT, layers=STIFF.layers)
     with pytest.raises(UnsupportedScene, match="slips first within"):

@@ -1,7 +1,5 @@
 """Tests of reciprocity (Betti): two loads do the same work on the displacements of each other."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_scenes import (
@@ -35,7 +33,7 @@ NODES = (0.0, 0.1, 0.22, 0.3, 0.5, 0.8, 0.95, 1.0, 1.3)
 PRESSED = coupled_scene(PRESS, friction=None, indenter=paraboloid(steel(0.1)))
 
 
-def test_reciprocity_of_tractions_on_cells(rng: np.random.Generator) -> None:
+def test_reciprocity_of_tractions_on_cells(rng):
     """The layers couple shear and pressure: each does work on the displacement by the other."""
     shape, spacing = (13, 8), (0.3 * A, 0.17 * A)
     bodies = PRESSED.body, PRESSED.indenter
@@ -47,25 +45,25 @@ def test_reciprocity_of_tractions_on_cells(rng: np.random.Generator) -> None:
     assert np.sum(one * by_other) == pytest.approx(np.sum(other * by_one), abs=1e-12 * scale)
 
 
-def test_reciprocity_of_tractions_on_rings() -> None:
+def test_reciprocity_of_tractions_on_rings():
     found = ring_compliance(Coupling.of(PRESSED), NODES, 1.3 * A, HIGHEST)
     assert_allclose(found, found.transpose(0, 2, 1, 4, 3), atol=1e-14 * np.max(np.abs(found)))
 
 
 @pytest.mark.parametrize("at_gauss_points", [False, True])
-def test_reciprocity_of_tractions_on_elements(at_gauss_points: bool) -> None:
+def test_reciprocity_of_tractions_on_elements(at_gauss_points):
     model = ContactModel.of(PRESSED, elements(8), A)
     for found in element_compliance(model, Path.HARMONICS, HIGHEST, at_gauss_points).harmonics:
         largest = np.max(np.abs(found))
         assert_allclose(found, found.transpose(2, 3, 0, 1), rtol=0, atol=1e-10 * largest)
 
 
-def test_reciprocity_of_force_and_torque() -> None:
+def test_reciprocity_of_force_and_torque():
     """A contact beside the origin that sticks: what a force turns, a torque shifts."""
     beside = {**PRESS, "moment": (0.4 * A * LOAD, 0.0), "torque": 0.0}
     torque = 0.1 * 3 * np.pi / 16 * LIMIT * A
 
-    def end(more: dict[str, object]):  # type: ignore[no-untyped-def]
+    def end(more):
         return solve(scene(beside, more, friction=50.0), grid(32, 2.0), 1e-9).steps[-1]
 
     pushed, turned = end(push(0.1)), end({"torque": torque})

@@ -1,7 +1,5 @@
 """Tests of stored records: they contain a digest of the source code that made them."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path
@@ -33,9 +31,7 @@ DEPENDS = {
 
 
 @pytest.mark.parametrize(("module", "expected"), DEPENDS.items(), ids=DEPENDS)
-def test_a_record_depends_on_what_its_modules_import(
-    module: str, expected: tuple[set[str], str]
-) -> None:
+def test_a_record_depends_on_what_its_modules_import(module, expected):
     found = closure([module])
     needed, foreign = expected
     assert needed <= found
@@ -43,7 +39,7 @@ def test_a_record_depends_on_what_its_modules_import(
     assert all((ROOT / path).is_file() for path in found)
 
 
-def test_imports_are_found_in_every_form(tmp_path: Path) -> None:
+def test_imports_are_found_in_every_form(tmp_path):
     path = tmp_path / "imports.py"
     of_a_function = "from contact_solver import (\n krylov,  # (1)\n shear as zones,\n )"
     path.write_text(f"import radial.history as model\n\n\ndef f():\n    {of_a_function}\n")
@@ -53,8 +49,8 @@ def test_imports_are_found_in_every_form(tmp_path: Path) -> None:
 
 
 def test_a_record_is_older_where_a_source_of_its_closure_changes(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     made = made_by()
     assert is_current(made)
     real = provenance._file_digest
@@ -68,9 +64,7 @@ def test_a_record_is_older_where_a_source_of_its_closure_changes(
     assert not is_current(made.model_copy(update={"modules": ()}))
 
 
-def test_texts_and_format_of_a_source_do_not_count(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_texts_and_format_of_a_source_do_not_count(tmp_path, monkeypatch):
     monkeypatch.setattr(provenance, "ROOT", tmp_path)
     texts = {
         "a.py": '"""Old."""\nX = 1.5\n\n\ndef f():\n    """Old."""\n    return "x", X\n',
@@ -85,14 +79,12 @@ def test_texts_and_format_of_a_source_do_not_count(
     assert provenance._file_digest("a.py") == provenance._file_digest("e.py")
 
 
-def test_every_study_names_the_module_that_makes_it() -> None:
+def test_every_study_names_the_module_that_makes_it():
     for name, known in STUDIES.items():
         assert len(closure([known.cases.__module__])) > 100, name
 
 
-def test_records_are_listed_by_cost_and_old_ones_are_red(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_records_are_listed_by_cost_and_old_ones_are_red(tmp_path, capsys):
     for name, seconds in (("stability", 50.0), ("promises", 5.0)):
         place = tmp_path / "studies" / name
         place.mkdir(parents=True)

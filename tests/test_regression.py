@@ -1,10 +1,5 @@
 """Tests of the comparison of results with baselines: kinds of changes, and acceptance."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import pytest
 from report_examples import report_by
 
@@ -36,7 +31,7 @@ REASON = "first numbers | of <b>this</b> test"
 
 
 @pytest.fixture(scope="module")
-def healthy() -> CaseOutcome:
+def healthy():
     """A case that passes, without figures and with one verdict of each name."""
     measured = judge(hertz_point(cells=refinement(32, 128)))
     nothing_stated = {"stated_error": None, "covered": None}
@@ -49,7 +44,7 @@ def healthy() -> CaseOutcome:
     )
 
 
-def with_verdict(case: CaseOutcome, name: str, **changes: object) -> CaseOutcome:
+def with_verdict(case, name, **changes):
     verdicts = [v.model_copy(update=changes) if v.name == name else v for v in case.verdicts]
     return case.model_copy(update={"verdicts": tuple(verdicts)})
 
@@ -70,7 +65,7 @@ def compare(now: CaseOutcome, was: CaseOutcome) -> CaseOutcome:
     return compared(report_by(now), baselines_of(report_by(was), REASON)).cases[0]
 
 
-def posed(case: CaseOutcome, name: str, part: float | None, **changes: object) -> CaseOutcome:
+def posed(case, name, part, **changes):
     """The case with an error of this part of what is allowed, and judged otherwise."""
     if part is not None:
         verdict = find(case, name)
@@ -88,7 +83,7 @@ PASSED = {"value": 2.03, "reference": 2.0, "allowed": 0.2, "interval": 0.2}
 LOST = {"allowed": 1.0, "interval": 1.0, "status": Status.INCONCLUSIVE}
 FAILED = {"value": 1.0, "error": 0.5, "allowed": 0.2, "interval": 0.2, "status": Status.FAIL}
 STATED = {"stated_error": 1e-8, "covered": True}
-CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
+CHANGES = [
     # verdict, part of what is allowed (before, now) or how it is judged, kind, exit code, remark
     *(
         ("approach", 0.2, now, kind, code, "")
@@ -141,21 +136,20 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
 
 @pytest.mark.parametrize(("name", "was", "now", "kind", "code", "remark"), CHANGES)
 def test_what_changes_and_what_it_ends_with(
-    healthy: CaseOutcome,
-    name: str,
-    was: Any,
-    now: Any,
-    kind: ChangeKind,
-    code: int,
-    remark: str,
-) -> None:
+    healthy,
+    name,
+    was,
+    now,
+    kind,
+    code,
+    remark,
+):
     then, here = (
         posed(healthy, name, None, **one) if isinstance(one, dict) else posed(healthy, name, one)
         for one in (was, now)
     )
     report = compared(report_by(here), baselines_of(report_by(then), REASON))
     change = find(report.cases[0], name).regression
-    assert change is not None
     assert (change.kind, exit_code_of(report)) == (kind, code)
     assert remark in change.remark
 
@@ -165,13 +159,11 @@ def test_what_changes_and_what_it_ends_with(
     ("now", "kind"),
     [(100, None), (105, None), (106, ChangeKind.DEARER), (95, None), (94, ChangeKind.DRIFT)],
 )
-def test_counts_of_a_case_are_kept_to_a_twentieth(
-    healthy: CaseOutcome, name: str, now: int, kind: ChangeKind | None
-) -> None:
+def test_counts_of_a_case_are_kept_to_a_twentieth(healthy, name, now, kind):
     """Of all its solves together: one may take more where another takes less."""
     first, second, *others = (run.model_copy(update={name: 0}) for run in healthy.runs)
 
-    def counted(one: int, other: int) -> CaseOutcome:
+    def counted(one, other):
         runs = (first.model_copy(update={name: one}), second.model_copy(update={name: other}))
         return healthy.model_copy(update={"runs": (*runs, *others)})
 
@@ -180,15 +172,13 @@ def test_counts_of_a_case_are_kept_to_a_twentieth(
     assert compare(counted(40, 60), counted(20, 80)).counts == ()
 
 
-def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> None:
+def test_largest_residual_may_be_found_in_another_run(healthy):
     moved = with_verdict(healthy, "largest_residual", run="16x16")
     assert key_of(find(moved, "largest_residual")) == key_of(find(healthy, "largest_residual"))
     assert compare(moved, healthy).gone == ()
 
 
-def test_baseline_returns_every_bit_and_equal_reports_give_equal_bytes(
-    healthy: CaseOutcome, tmp_path: Path
-) -> None:
+def test_baseline_returns_every_bit_and_equal_reports_give_equal_bytes(healthy, tmp_path):
     (file,) = accept(report_by(healthy), REASON, tmp_path)
     once = file.read_bytes()
     baseline = read_baselines(tmp_path)[healthy.name]
@@ -199,14 +189,14 @@ def test_baseline_returns_every_bit_and_equal_reports_give_equal_bytes(
     assert file.read_bytes() == once
 
 
-def test_every_baseline_belongs_to_a_case() -> None:
+def test_every_baseline_belongs_to_a_case():
     for case, baseline in read_baselines().items():
         for level in baseline.levels:
             assert case in CASES, (case, level)
     assert {path.suffix for path in BASELINES.glob("*.*")} <= {".json", ".md", ".py"}
 
 
-def test_only_the_named_cases_are_accepted(healthy: CaseOutcome, tmp_path: Path) -> None:
+def test_only_the_named_cases_are_accepted(healthy, tmp_path):
     other = healthy.model_copy(update={"name": "other"})
     (file,) = accept(report_by(healthy, other), REASON, tmp_path, ["other"])
     assert file.name == "other.json"

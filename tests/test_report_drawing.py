@@ -21,7 +21,7 @@ LINES = ("reference", *(f"series-{n}" for n in range(1, 7)))
 
 
 @pytest.mark.parametrize("letters", [10, 70])
-def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
+def test_a_legend_leaves_the_plot_half_of_the_width(letters):
     curves = tuple(curve(f"{n} {'m' * letters}", [1, 2], [n, n + 1], series=n) for n in range(8))
     panel = Panel(x_label="x", y_label="y", curves=curves, height=2.4)
     chart = Chart(name="one", title="t", caption="c", rows=((panel,),))
@@ -37,7 +37,7 @@ def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
 
 
 @pytest.mark.parametrize(("last", "spread"), [(1.1, 0.05), (4.0, 0.6)])
-def test_equal_times_are_not_drawn_apart(last: float, spread: float) -> None:
+def test_equal_times_are_not_drawn_apart(last, spread):
     """Work of 1 to 1.1 s takes a tenth of the axis, and four times the work two thirds."""
     work = curve("cells", [1.0, last], [1e-2, 1e-4], Look.POINTS)
     panel = Panel(
@@ -50,7 +50,7 @@ def test_equal_times_are_not_drawn_apart(last: float, spread: float) -> None:
 
 
 @pytest.mark.parametrize("ratio", [1.01, 1.5, 2.4, 4.9, 5.1])
-def test_labels_of_a_short_logarithmic_axis_do_not_overlap(ratio: float) -> None:
+def test_labels_of_a_short_logarithmic_axis_do_not_overlap(ratio):
     errors = curve("cells", [1.18e-4, ratio * 1.18e-4], [1e-2, 1e-3], Look.POINTS)
     panel = Panel(x_label="time", y_label="error", curves=(errors,), logarithmic=True)
     with style.figure_style():
@@ -64,7 +64,7 @@ def test_labels_of_a_short_logarithmic_axis_do_not_overlap(ratio: float) -> None
     assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
-def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
+def test_no_two_series_of_one_chart_are_drawn_alike():
     names = range(36)
     curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)
     chart = Chart(
@@ -79,7 +79,7 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     assert len(looks) == len(names)
 
 
-def test_a_map_shows_every_named_place_with_half_a_place_around_it() -> None:
+def test_a_map_shows_every_named_place_with_half_a_place_around_it():
     tiles = curve("all", [0, 2], [0, 3], Look.TILES)
     panel = Panel(
         x_label="x",
@@ -109,7 +109,7 @@ def _contrast(one: str, other: str) -> float:
 
 
 @pytest.mark.parametrize("scheme", [0, 1, 2], ids=["light", "dark", "print"])
-def test_text_and_lines_stand_out_from_the_paper_in_every_scheme(scheme: int) -> None:
+def test_text_and_lines_stand_out_from_the_paper_in_every_scheme(scheme):
     blocks = re.findall(r":root \{(.*?)\}", STYLES.read_text(encoding="utf-8"), re.DOTALL)
     colours = dict(re.findall(r"--([\w-]+): (#[0-9A-Fa-f]{6});", blocks[scheme]))
     for name in INKS:

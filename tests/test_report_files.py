@@ -7,7 +7,6 @@ import os
 import subprocess
 import threading
 from pathlib import Path
-from typing import Any
 
 import pytest
 from command import slipstick
@@ -33,13 +32,13 @@ from verification.report.summary_text import (
 )
 from verification.running import provenance
 from verification.running.report_record import dump_report, load_report
-from verification.running.study import StudyRecord, dump_study
+from verification.running.study import dump_study
 
 FILES = {PAGE, SHEETS, RECORD, JUNIT, SUMMARY}
 
 
 @pytest.fixture
-def places(tmp_path: Path) -> tuple[Path, Path]:
+def places(tmp_path):
     """A report of three cases and its baselines."""
     report, baselines = tmp_path / "report", tmp_path / "baselines"
     report.mkdir()
@@ -52,7 +51,7 @@ def files_in(directory: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in directory.iterdir() if path.is_file()}
 
 
-def test_earlier_report_waits_aside_until_the_new_one_is_whole(places: tuple[Path, Path]) -> None:
+def test_earlier_report_waits_aside_until_the_new_one_is_whole(places):
     report, baselines = places
     (report / "of_mine.txt").touch()
     before = files_in(report)
@@ -68,15 +67,13 @@ def test_earlier_report_waits_aside_until_the_new_one_is_whole(places: tuple[Pat
 
 
 @pytest.mark.parametrize("moved", range(len(FILES)))
-def test_end_in_the_middle_of_setting_aside_costs_no_numbers(
-    places: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch, moved: int
-) -> None:
+def test_end_in_the_middle_of_setting_aside_costs_no_numbers(places, monkeypatch, moved):
     report, _ = places
     record = (report / RECORD).read_bytes()
     calls = iter(range(moved))
     move = os.replace
 
-    def replace(source: Path, target: Path) -> None:
+    def replace(source, target):
         if next(calls, None) is None:
             raise KeyboardInterrupt
         move(source, target)
@@ -91,7 +88,7 @@ def test_end_in_the_middle_of_setting_aside_costs_no_numbers(
     assert (report / EARLIER / RECORD).read_bytes() == record
 
 
-def test_what_is_not_ours_stays_where_a_report_would_wait(places: tuple[Path, Path]) -> None:
+def test_what_is_not_ours_stays_where_a_report_would_wait(places):
     report, _ = places
     (report / EARLIER).mkdir()
     (report / EARLIER / "of_mine.txt").touch()
@@ -100,10 +97,8 @@ def test_what_is_not_ours_stays_where_a_report_would_wait(places: tuple[Path, Pa
     assert files_in(report / EARLIER) == {"of_mine.txt": b""}
 
 
-def test_kept_report_that_is_set_aside_is_no_change_of_the_source(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def git(*arguments: str) -> None:
+def test_kept_report_that_is_set_aside_is_no_change_of_the_source(tmp_path, monkeypatch):
+    def git(*arguments):
         author = ("-c", "user.name=a", "-c", "user.email=a@example.org")
         subprocess.run(["git", *author, "-C", tmp_path, *arguments], check=True)
 
@@ -122,7 +117,7 @@ def test_kept_report_that_is_set_aside_is_no_change_of_the_source(
     assert provenance.provenance("", {}).changed
 
 
-def test_reports_into_one_directory_are_written_one_after_the_other(tmp_path: Path) -> None:
+def test_reports_into_one_directory_are_written_one_after_the_other(tmp_path):
     descriptor = os.open(tmp_path, os.O_RDONLY)
     fcntl.flock(descriptor, fcntl.LOCK_EX)
     writing = threading.Thread(target=write_report, args=(three_cases(), tmp_path))
@@ -135,12 +130,10 @@ def test_reports_into_one_directory_are_written_one_after_the_other(tmp_path: Pa
     assert load_report(tmp_path / RECORD) == three_cases()
 
 
-def test_full_disk_leaves_no_record_and_names_the_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_full_disk_leaves_no_record_and_names_the_file(tmp_path, monkeypatch):
     write_report(three_cases(), tmp_path)
 
-    def full(self: Path, text: str, **options: Any) -> int:
+    def full(self, text, **options):
         if "summary" in self.name:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         return write_text(self, text, **options)
@@ -157,7 +150,7 @@ def test_full_disk_leaves_no_record_and_names_the_file(
 # ---- packed records
 
 
-def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) -> None:
+def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path):
     report = three_cases()
     packed = tmp_path / PACKED
     packed.write_bytes(lzma.compress(dump_report(report).encode()))
@@ -173,9 +166,7 @@ def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) ->
     assert not packed.exists()
 
 
-def test_a_packed_record_that_is_damaged_or_too_large_is_refused_in_words(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_packed_record_that_is_damaged_or_too_large_is_refused_in_words(tmp_path, monkeypatch):
     packed = tmp_path / PACKED
     whole = lzma.compress(b" " * 5000)
     for content in (b"no xz", whole[:-20]):
@@ -191,10 +182,10 @@ def test_a_packed_record_that_is_damaged_or_too_large_is_refused_in_words(
 # ---- records of studies
 
 
-def test_the_best_record_of_a_study_is_shown(tmp_path: Path) -> None:
+def test_the_best_record_of_a_study_is_shown(tmp_path):
     """One of these sources, of the highest level, the latest; cells of a user are no level."""
 
-    def store(place: str, record: StudyRecord, date: str, **changes: object) -> None:
+    def store(place, record, date, **changes):
         made = record.provenance.model_copy(update={"date": date, **changes})
         (tmp_path / place).mkdir(parents=True)
         text = dump_study(record.model_copy(update={"provenance": made}))
@@ -217,9 +208,7 @@ def test_the_best_record_of_a_study_is_shown(tmp_path: Path) -> None:
     ("present", "chosen"),
     [((), RECORD), ((PACKED,), PACKED), ((RECORD,), RECORD), ((PACKED, RECORD), RECORD)],
 )
-def test_a_packed_record_is_read_if_there_is_no_other(
-    tmp_path: Path, present: tuple[str, ...], chosen: str
-) -> None:
+def test_a_packed_record_is_read_if_there_is_no_other(tmp_path, present, chosen):
     for name in present:
         (tmp_path / name).touch()
     assert record_in(tmp_path) == tmp_path / chosen

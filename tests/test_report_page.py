@@ -3,7 +3,6 @@
 import ast
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 from report_examples import (
     case,
@@ -37,7 +36,7 @@ def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
 SHOWN = ("tilted_punch", "cone_contact", "hertz_point", "radial_torsion", "torsion", "unlisted")
 
 
-def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first() -> None:
+def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first():
     """The last case has a run without a result, whose verdict has no error to compare."""
     names = {"hertz_point": 1.001, "torsion": 1.003, "cone_contact": 1.009, "radial_torsion": 1.004}
     lost = verdict("solved", 1.0, 1.0).model_copy(
@@ -56,7 +55,7 @@ def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_f
     assert places == sorted(places)
 
 
-def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:
+def test_errors_below_round_off_are_no_numbers_and_count_nowhere():
     """Errors are relative to the scale of their verdict, here 1e9 and 1e-9."""
     found = [verdict("p", s * (1 + e), s) for s in (1e9, 1e-9) for e in (1e-6, 5e-13)]
     assert [error_text(one) for one in found] == ["1e-6", "< 1e-12"] * 2
@@ -64,14 +63,14 @@ def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:
     assert render_sheets(report_of((judged(*found),))).count("&lt; 1e-12") == 2
 
 
-def test_a_claim_that_is_inconclusive_does_not_hold() -> None:
+def test_a_claim_that_is_inconclusive_does_not_hold():
     outcomes = (Status.PASS, Status.FAIL, Status.INCONCLUSIVE, None)
     stated = [SimpleNamespace(outcome=outcome) for outcome in outcomes]
-    record: Any = SimpleNamespace(level="full", conclusion=SimpleNamespace(statements=stated))
+    record = SimpleNamespace(level="full", conclusion=SimpleNamespace(statements=stated))
     assert claims_line(record) == "1 of its 3 judged claims hold (level full)"
 
 
-def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:
+def test_every_table_that_is_made_says_the_units_of_its_numbers():
     """What has none is dimensionless by somebody's word, not because nobody has thought of it."""
     silent = [
         f"{path}:{call.lineno}"
@@ -85,7 +84,7 @@ def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:
     assert silent == []
 
 
-def test_promises_have_figures_or_the_command_that_finds_them() -> None:
+def test_promises_have_figures_or_the_command_that_finds_them():
     planned, forced = (
         run_record(48, None).model_copy(
             update={"label": how, "convolutions": count, "planned": planned}
@@ -103,7 +102,7 @@ def test_promises_have_figures_or_the_command_that_finds_them() -> None:
     assert stable.status is Status.FAIL
 
 
-def test_a_quick_page_stays_small() -> None:
+def test_a_quick_page_stays_small():
     charts = tuple(chart(f"map_{n}", f"View {n}") for n in range(14))
     cells = Table(title="Cells", columns=("cell", "residual"), rows=(("a", "1e-9"),) * 300)
     large = study("seeded-defects")
@@ -117,9 +116,9 @@ def test_a_quick_page_stays_small() -> None:
     assert full.count("1e-9") == 300
 
 
-def test_round_off_does_not_choose_between_equal_errors_of_the_validity_table() -> None:
-    case: Any = None
-    verdicts: Any = [
+def test_round_off_does_not_choose_between_equal_errors_of_the_validity_table():
+    case = None
+    verdicts = [
         SimpleNamespace(reference_kind=min(OUTSIDE), error=error)
         for error in (0.012, 0.012 + 1e-15)
     ]

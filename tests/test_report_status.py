@@ -40,9 +40,7 @@ OTHER = made_by().model_copy(update={"sources": "those", "commit": "abc1234" + 3
         (63.5, "not known"),
     ],
 )
-def test_an_order_that_its_interval_says_nothing_of_is_no_number(
-    half_width: float, text: str
-) -> None:
+def test_an_order_that_its_interval_says_nothing_of_is_no_number(half_width, text):
     order = verdict("order", 1.9, 2.0).model_copy(update={"interval": half_width})
     assert verdict_order_text(order) == text
 
@@ -54,7 +52,7 @@ def made(record: StudyRecord, provenance: Provenance, *, failed: bool = False) -
     return record.model_copy(update={"conclusion": conclusion, "provenance": provenance})
 
 
-def test_failed_study_of_the_same_sources_fails_the_report() -> None:
+def test_failed_study_of_the_same_sources_fails_the_report():
     report = report_of(three_cases().cases, (made(study("stability"), made_by(), failed=True),))
     assert report.counts[Status.FAIL] == 0
     assert report.status is Status.FAIL
@@ -68,7 +66,7 @@ def test_failed_study_of_the_same_sources_fails_the_report() -> None:
     assert "1 of the studies failed" in render_page(report)
 
 
-def test_requirement_that_no_passing_case_shows_fails_the_report() -> None:
+def test_requirement_that_no_passing_case_shows_fails_the_report():
     declared = choose(Level.QUICK)
     assert unmet(declared, [a_case(case.name) for case in declared]) == ()
     errors = [0.02 if "rig" in case.shows else 0.0 for case in declared]
@@ -82,7 +80,7 @@ def test_requirement_that_no_passing_case_shows_fails_the_report() -> None:
 
 
 @pytest.mark.parametrize(("uncovered", "status"), [(1, Status.PASS), (2, Status.FAIL)])
-def test_a_full_report_needs_95_percent(uncovered: int, status: Status) -> None:
+def test_a_full_report_needs_95_percent(uncovered, status):
     one = verdict("radius", 1.0, 1.0)
     stated = [{"name": f"{n}", "stated_error": 1.0, "covered": n >= uncovered} for n in range(20)]
     verdicts = tuple(one.model_copy(update=each) for each in stated)
@@ -91,14 +89,14 @@ def test_a_full_report_needs_95_percent(uncovered: int, status: Status) -> None:
     assert report.status is Status.PASS
 
 
-def test_study_that_lost_a_case_fails_the_report() -> None:
+def test_study_that_lost_a_case_fails_the_report():
     lost = (LostCase(name="cell-7", reason="its worker was killed"),)
     record = study("stability").model_copy(update={"lost": lost})
     (line,) = failure_lines(report_of(three_cases().cases, (record,)))
     assert "cell-7 was lost: its worker was killed" in line
 
 
-def test_study_of_other_sources_is_marked_and_judges_nothing() -> None:
+def test_study_of_other_sources_is_marked_and_judges_nothing():
     report = report_of(three_cases().cases, (made(study("stability"), OTHER, failed=True),))
     assert report.status is Status.PASS
     assert failure_lines(report) == []

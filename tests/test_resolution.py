@@ -3,7 +3,6 @@
 import json
 import re
 from statistics import NormalDist
-from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -110,10 +109,10 @@ def test_waves_that_the_cells_do_not_see_are_told_by_what_they_take_from_the_pea
     assert missed > 0.03
 
 
-def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch) -> None:
+def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch):
     """A height of a Gaussian surface that one place in a thousand exceeds."""
     monkeypatch.setattr(discretised, "unresolved_pressure", lambda result: 0.1)
-    lost = CellSolver(scene(PRESS), SurfaceDiscretisation()).neglected_errors(cast("Any", None))
+    lost = CellSolver(scene(PRESS), SurfaceDiscretisation()).neglected_errors(None)
     assert lost["peak_pressure"] == pytest.approx(0.1 * NormalDist().inv_cdf(0.999), rel=0.05)
 
 

@@ -14,7 +14,6 @@ from contact_solver.dense_inverse import inverse_on
 from contact_solver.pressure import PressureProblem, solve_pressure
 from fem_reference.compliance.gauss_points import loading_part
 from fem_reference.compliance.ring_edge import (
-    Edge,
     GaussEdge,
     HatEdge,
     area_of_holes,
@@ -26,7 +25,7 @@ from radial.tangential.stick_border import stick_area as point_stick_area
 CENTRE = 200
 
 
-def test_the_softer_body_decides_where_the_edge_lies() -> None:
+def test_the_softer_body_decides_where_the_edge_lies():
     soft, hard = (
         Body(material=IsotropicMaterial(young_modulus=E, poisson_ratio=nu))
         for E, nu in ((1e9, 0.1), (1e15, 0.4))
@@ -57,7 +56,7 @@ def plane_contact(half_width: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
-def test_edge_of_plane_contact_is_found_within_its_element(beyond: float) -> None:
+def test_edge_of_plane_contact_is_found_within_its_element(beyond):
     a = 150 + beyond
     p = plane_contact(a)
     last = int(np.flatnonzero(p > 0)[-1])
@@ -67,7 +66,7 @@ def test_edge_of_plane_contact_is_found_within_its_element(beyond: float) -> Non
 
 
 @pytest.mark.parametrize("step", [1, -1])
-def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -> None:
+def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step):
     r = (np.arange(40)[:, None] + 0.5 + np.array([-0.387, 0.0, 0.387])).ravel()
     p = np.sqrt(np.maximum(step * (20.3**4 - r**4), 0.0))
     last = int(np.flatnonzero(p)[-1 if step > 0 else 0])
@@ -79,7 +78,7 @@ def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(side: int) -> None:
+def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(side):
     """Whichever way it slips; outside, stick reaches the edge of the contact."""
     radii, inner, outer = np.arange(60.0), 20.4, 50.3
     bound = np.sqrt(np.maximum(outer**2 - radii**2, 0))
@@ -94,7 +93,7 @@ def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(
 
 
 @pytest.mark.parametrize("way", [1, -1])
-def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limit(way: int) -> None:
+def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limit(way):
     """All rings stick, but stick ends before contact does."""
     stick, contact = 150.3, 150.8
     missing, bound = plane_contact(stick), plane_contact(contact)
@@ -108,7 +107,7 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
 
 @pytest.mark.parametrize("edge", [HatEdge(), GaussEdge(1.0)])
 @pytest.mark.parametrize("inner", [0.0, 12.4])
-def test_a_hole_in_the_contact_is_no_part_of_contact_and_stick(edge: Edge, inner: float) -> None:
+def test_a_hole_in_the_contact_is_no_part_of_contact_and_stick(edge, inner):
     """A disc, and a ring around it. The pressure of a single Gauss point is not determined."""
     hole, outer = 30.3, 50.6
     gauss = isinstance(edge, GaussEdge)
@@ -127,7 +126,7 @@ def test_a_hole_in_the_contact_is_no_part_of_contact_and_stick(edge: Edge, inner
 
 
 @pytest.mark.parametrize("excess", [0.0, 1e-9])
-def test_a_stuck_ring_at_its_limit_ends_the_stick_zone(excess: float) -> None:
+def test_a_stuck_ring_at_its_limit_ends_the_stick_zone(excess):
     """By round-off the shear of a stuck ring may exceed its friction limit."""
     radii = np.arange(6.0)
     bound = np.array([8.0, 7.0, 6.0, 4.0, 1.0, 0.0])
@@ -136,7 +135,7 @@ def test_a_stuck_ring_at_its_limit_ends_the_stick_zone(excess: float) -> None:
     assert np.sqrt(area / np.pi) == pytest.approx(4.0, abs=1e-5)
 
 
-def test_a_stuck_ring_beyond_the_contact_edge_has_no_area() -> None:
+def test_a_stuck_ring_beyond_the_contact_edge_has_no_area():
     """The fitted contact edge may lie inside the outermost ring in contact, if this ring sticks."""
     radii = np.arange(6.0)
     bound = np.array([5.0, 4.0, 3.0, 2.0, 1.0, 0.0])
@@ -150,9 +149,7 @@ def test_a_stuck_ring_beyond_the_contact_edge_has_no_area() -> None:
 
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
 @pytest.mark.parametrize("count", [6, 7])
-def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
-    beyond: float, count: int
-) -> None:
+def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(beyond, count):
     missing = plane_contact(150 + beyond)
     radii, sticks = np.arange(len(missing)) * 1.0, missing > 0
     size = np.tile(200.0 - missing, (count, 1)).T

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -53,13 +52,13 @@ def refused_run(target: Path) -> None:
 
 
 @pytest.fixture
-def earlier_run(tmp_path: Path) -> Path:
+def earlier_run(tmp_path):
     target = tmp_path / "out"
     run(target, "old")
     return target
 
 
-def test_directory_appears_only_when_it_is_complete(tmp_path: Path) -> None:
+def test_directory_appears_only_when_it_is_complete(tmp_path):
     target = tmp_path / "deep" / "out"
     with run_directory(target) as staging:
         fill(staging)
@@ -68,22 +67,22 @@ def test_directory_appears_only_when_it_is_complete(tmp_path: Path) -> None:
     assert os.listdir(target.parent) == ["out"]
 
 
-def test_failed_run_leaves_nothing_not_even_parents(tmp_path: Path) -> None:
+def test_failed_run_leaves_nothing_not_even_parents(tmp_path):
     with pytest.raises(WorkFailed):
         failing_run(tmp_path / "deep" / "er" / "out")
     assert os.listdir(tmp_path) == []
 
 
 def test_rerun_replaces_results_and_drops_stale_ones_but_no_foreign_file(
-    earlier_run: Path,
-) -> None:
+    earlier_run,
+):
     (earlier_run / "shear.png").write_text("of the earlier run")
     (earlier_run / "notes.txt").write_text("mine")
     run(earlier_run)
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new", "notes.txt": "mine"}
 
 
-def test_foreign_results_are_refused_before_work_unless_told(tmp_path: Path) -> None:
+def test_foreign_results_are_refused_before_work_unless_told(tmp_path):
     (tmp_path / "profiles.csv").write_text("mine")
     with pytest.raises(OutputRefused, match="not the result of an earlier run"):
         refused_run(tmp_path)
@@ -92,7 +91,7 @@ def test_foreign_results_are_refused_before_work_unless_told(tmp_path: Path) -> 
     assert contents(tmp_path) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-def test_abandoned_directory_is_cleared_away(tmp_path: Path) -> None:
+def test_abandoned_directory_is_cleared_away(tmp_path):
     abandoned = tmp_path / ".out.partial-0badcafe"
     abandoned.mkdir()
     (abandoned / "result.h5").write_text("half")
@@ -103,7 +102,7 @@ def test_abandoned_directory_is_cleared_away(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def handlers_restored(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def handlers_restored(monkeypatch):
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     before = [signal.getsignal(number) for number in numbers]
     # A run leaves ignored signals ignored, and `nohup` has tests start with SIGHUP ignored.
@@ -120,7 +119,7 @@ def handlers_restored(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 @pytest.mark.usefixtures("handlers_restored")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_signal_during_work_cleans_up(tmp_path: Path, number: signal.Signals) -> None:
+def test_signal_during_work_cleans_up(tmp_path, number):
     with pytest.raises(SystemExit) as stop:
         stopped_run(tmp_path / "out", number)
     assert stop.value.code == 128 + number
@@ -128,12 +127,10 @@ def test_signal_during_work_cleans_up(tmp_path: Path, number: signal.Signals) ->
 
 
 @pytest.mark.usefixtures("handlers_restored")
-def test_signal_during_publication_waits_for_its_end(
-    earlier_run: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_signal_during_publication_waits_for_its_end(earlier_run, monkeypatch):
     real_replace = os.replace
 
-    def interrupted_replace(source: Path, target: Path) -> None:
+    def interrupted_replace(source, target):
         signal.raise_signal(signal.SIGTERM)
         real_replace(source, target)
 
@@ -143,14 +140,12 @@ def test_signal_during_publication_waits_for_its_end(
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-def test_summary_is_the_sign_of_completeness(
-    earlier_run: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_summary_is_the_sign_of_completeness(earlier_run, monkeypatch):
     """A kill between two replacements leaves no summary, and the next run repairs it."""
     real_replace = os.replace
-    moved: list[str] = []
+    moved = []
 
-    def dying_replace(source: Path, target: Path) -> None:
+    def dying_replace(source, target):
         if len(moved) == 1:
             raise WorkFailed
         moved.append(target.name)
@@ -189,14 +184,14 @@ def entered(target: Path) -> bool:
 
 
 @pytest.fixture(params=[True, False], ids=["there", "not there yet"])
-def target(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+def target(request, tmp_path):
     target = tmp_path / "out"
     if request.param:
         target.mkdir()
     return target
 
 
-def test_second_run_is_refused_and_told_of_the_first(target: Path) -> None:
+def test_second_run_is_refused_and_told_of_the_first(target):
     with run_directory(target):
         with pytest.raises(OutputRefused, match=f"in use by process {os.getpid()} on"):
             run_directory(target).__enter__()
@@ -206,11 +201,10 @@ def test_second_run_is_refused_and_told_of_the_first(target: Path) -> None:
     assert [path.name for path in target.parent.rglob("*")] == ["out"]
 
 
-def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
+def test_lock_of_a_dead_process_stops_nobody(target):
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLD, target], cwd=ROOT, stdout=subprocess.PIPE, text=True
     )
-    assert holder.stdout is not None
     assert holder.stdout.readline() == "held\n"
     assert not entered(target)
     holder.send_signal(signal.SIGKILL)

@@ -67,7 +67,7 @@ RUN = ("run", "scene.toml", "-o", "out", "--figures", "none", "--no-error")
 
 
 @pytest.fixture(autouse=True)
-def _no_stored_coefficients(monkeypatch: pytest.MonkeyPatch) -> None:
+def _no_stored_coefficients(monkeypatch):
     """Their hits are counted in the results."""
     monkeypatch.setenv("SLIPSTICK_CACHE_DIR", os.devnull)
 
@@ -98,7 +98,7 @@ def folder_with(path: Path, scene: str) -> Path:
     return path
 
 
-def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path: Path) -> None:
+def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path):
     _, expected = completed(folder_with(tmp_path / "whole", SCENE))
     killed = folder_with(tmp_path / "killed", SCENE)
     started(killed, *RUN, by=KILLED_AFTER_SIX).communicate()
@@ -118,7 +118,7 @@ def interrupted(process: "subprocess.Popen[str]", *, by_itself: bool = False) ->
     return said.splitlines()
 
 
-def test_interrupted_run_says_from_where_it_goes_on(tmp_path: Path) -> None:
+def test_interrupted_run_says_from_where_it_goes_on(tmp_path):
     folder = folder_with(tmp_path / "run", ENDLESS_SCENE)
     process = started(folder, *RUN)
     deadline = time.monotonic() + 600
@@ -132,13 +132,12 @@ def test_interrupted_run_says_from_where_it_goes_on(tmp_path: Path) -> None:
     assert sorted(os.listdir(folder)) == [".out.checkpoint", "scene.toml"]
     assert Path(told[2]) == folder / ".out.checkpoint"
     process = started(folder, *RUN)
-    assert process.stderr is not None
     first = process.stderr.readline()
     interrupted(process)
     assert f"going on after increment {told[1]} of an interrupted run" in first
 
 
-def test_interrupted_verification_counts_what_it_keeps(tmp_path: Path) -> None:
+def test_interrupted_verification_counts_what_it_keeps(tmp_path):
     verify = ("verify", "hertz_approach_control", "layered_reference", "-o", "out")
     by = signalled("SIGINT", saved=1)
     process = started(tmp_path, *verify, "--workers", "1", "--fresh", by=by)
@@ -170,9 +169,7 @@ def jumping(*jumps: float) -> Callable[[], float]:
     [jumping(-3 * YEAR, 0.0, 5 * YEAR, -YEAR, 1e-3), jumping(0.0)],
     ids=["to and fro", "standing still"],
 )
-def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
-    clock: Callable[[], float], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(clock, tmp_path, monkeypatch):
     _, expected = completed(folder_with(tmp_path / "usual", SCENE))
     for name in ("time", "monotonic", "perf_counter", "process_time"):
         monkeypatch.setattr(time, name, clock)

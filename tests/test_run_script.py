@@ -17,7 +17,7 @@ SPREAD = "--numprocesses auto --dist loadfile --no-loadscope-reorder"
 
 
 @pytest.fixture
-def clone(tmp_path: Path) -> Path:
+def clone(tmp_path):
     """What `run` needs, with a Python that repeats its arguments."""
     for name in ("run", "pyproject.toml", "constraints.txt"):
         shutil.copy(ROOT / name, tmp_path)
@@ -43,9 +43,7 @@ def clone(tmp_path: Path) -> Path:
         ("--numprocesses=3", False),
     ],
 )
-def test_tests_run_on_every_core_unless_a_file_or_n_is_named(
-    options: str, spread: bool, clone: Path
-) -> None:
+def test_tests_run_on_every_core_unless_a_file_or_n_is_named(options, spread, clone):
     said = subprocess.run(
         ["bash", clone / "run", "test", *options.split()],
         env=os.environ | {"PYTHON": str(clone / ".venv" / "bin" / "python")},
@@ -56,5 +54,5 @@ def test_tests_run_on_every_core_unless_a_file_or_n_is_named(
     assert said == ["-m", "pytest", *(SPREAD.split() if spread else []), *options.split()]
 
 
-def test_files_that_begin_first_are_there() -> None:
+def test_files_that_begin_first_are_there():
     assert {*LONGEST} <= {path.stem for path in (ROOT / "tests").glob("test_*.py")}

@@ -5,7 +5,6 @@ import gc
 import math
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -22,7 +21,7 @@ from contact_scene import SceneError, SceneFile, read_scene_file
 STRUCTURED = settings(max_examples=7 * settings().max_examples)
 LONGEST = 0.05  # seconds of CPU; of 1 250 examples half took 0.5 ms, the longest 4 ms
 
-JUNK: st.SearchStrategy[Any] = st.recursive(
+JUNK = st.recursive(
     st.sampled_from([0, -1, 1, 10**30, True, 0.0, -0.0, 1e300, 5e-324, math.nan, math.inf])
     | st.sampled_from(["", "rigid", "1 mm", "1 s", "1 kN", "sphere", "height_map", "../x"])
     | st.sampled_from(["<sphere>", "nan mm", "1e9 GPa", "1 furlong"]),
@@ -39,7 +38,7 @@ JUNK: st.SearchStrategy[Any] = st.recursive(
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("fuzz")
 
 
@@ -68,7 +67,7 @@ def outcome(folder: Path, contents: bytes) -> SceneFile | SceneError:
         assert took < LONGEST
 
 
-def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+def places(value, path=()):
     keys = value if isinstance(value, dict) else range(len(value)) if type(value) is list else ()
     found = [(*path, key) for key in keys]
     return found + [place for key in keys for place in places(value[key], (*path, key))]
@@ -76,7 +75,7 @@ def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 @st.composite
 def mutated(draw: st.DrawFn) -> Document:
-    document: Any = copy.deepcopy(draw(documents()))
+    document = copy.deepcopy(draw(documents()))
     for _ in range(draw(st.integers(1, 4))):
         where = draw(st.sampled_from(places(document)))
         holder = document
@@ -98,10 +97,10 @@ def mutated(draw: st.DrawFn) -> Document:
 
 @STRUCTURED
 @given(mutated())
-def test_a_mutated_scene_is_read_or_refused(folder: Path, document: Document) -> None:
+def test_a_mutated_scene_is_read_or_refused(folder, document):
     assert outcome(folder, as_toml(document).encode())
 
 
 @given(st.binary(max_size=200) | st.text(max_size=100).map(str.encode))
-def test_anything_else_is_refused(folder: Path, contents: bytes) -> None:
+def test_anything_else_is_refused(folder, contents):
     assert isinstance(outcome(folder, contents), SceneError)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import Document, as_toml, documents
+from strategies import as_toml, documents
 
 from contact_scene import (
     RIGID,
@@ -32,7 +32,7 @@ REFUSED = (
 
 
 @pytest.mark.parametrize("assignment", REFUSED, ids=lambda given: ascii(given)[:30])
-def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
+def test_refusal_names_the_option_in_one_line(assignment):
     with pytest.raises(SceneError) as found:
         read_scene_file(SCENE, [assignment])
     named = [str(problem) for problem in found.value.problems if "--set" in str(problem)]
@@ -41,9 +41,7 @@ def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
 
 
 @given(documents())
-def test_a_scene_is_the_same_from_a_file_and_from_python(
-    tmp_path_factory: pytest.TempPathFactory, document: Document
-) -> None:
+def test_a_scene_is_the_same_from_a_file_and_from_python(tmp_path_factory, document):
     path = tmp_path_factory.mktemp("scene") / "scene.toml"
     path.write_text(as_toml(document), encoding="utf-8")
     discretisation = document.pop("semi_analytical", {})
@@ -72,19 +70,19 @@ semi_analytical.window = ["1.2 mm", "0.12 cm"]
 """
 
 
-def test_a_scene_does_not_depend_on_the_units_it_is_written_in(tmp_path: Path) -> None:
+def test_a_scene_does_not_depend_on_the_units_it_is_written_in(tmp_path):
     (tmp_path / "si.toml").write_text(IN_SI, encoding="utf-8")
     (tmp_path / "units.toml").write_text(IN_UNITS, encoding="utf-8")
     assert read_scene_file(tmp_path / "si.toml") == read_scene_file(tmp_path / "units.toml")
 
 
-def test_a_mark_at_the_start_and_foreign_line_ends_do_no_harm(tmp_path: Path) -> None:
+def test_a_mark_at_the_start_and_foreign_line_ends_do_no_harm(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_bytes(b"\xef\xbb\xbf" + IN_SI.replace("\n", "\r\n").encode())
     assert load_scene(path).indenter.material is RIGID
 
 
-def test_files_named_in_a_scene_lie_beside_it(tmp_path: Path) -> None:
+def test_files_named_in_a_scene_lie_beside_it(tmp_path):
     (tmp_path / "maps").mkdir()
     np.save(tmp_path / "maps" / "h.npy", np.arange(20.0, dtype=np.float32).reshape(4, 5))
     np.save(tmp_path / "mu.npy", np.full((8, 9), 0.2))
@@ -101,7 +99,6 @@ def test_files_named_in_a_scene_lie_beside_it(tmp_path: Path) -> None:
     assert isinstance(scene.indenter, HeightMap)
     assert scene.indenter.spacing == (1e-6, 1e-6)
     assert scene.indenter.file.shape == (4, 5)
-    assert scene.friction is not None
     assert isinstance(scene.friction.coefficient, FrictionMap)
     assert np.all(scene.friction.coefficient.map.values == 0.2)
     assert scene.model_dump(mode="json")["indenter"]["file"] == "maps/h.npy"

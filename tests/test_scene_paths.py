@@ -2,7 +2,6 @@
 
 import os
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,7 @@ REST = (
     '\nmaterial = "rigid"\n[body]\nmaterial = { young_modulus = 2e11, poisson_ratio = 0.3 }\n'
     "[[loading]]\nnormal_force = 1\n"
 )
-opened: list[str] | None = None
+opened = None
 
 
 def listen(event: str, given: tuple[Any, ...]) -> None:
@@ -42,15 +41,13 @@ def listen(event: str, given: tuple[Any, ...]) -> None:
 
 
 @pytest.fixture(scope="module")
-def audited() -> None:
+def audited():
     sys.addaudithook(listen)  # it cannot be removed
 
 
 @pytest.mark.parametrize("text", MAPS, ids=["height map", "friction map"])
 @pytest.mark.parametrize("name", NAMES)
-def test_a_name_that_leads_elsewhere_is_refused(
-    name: str, text: str, tmp_path: Path, audited: None
-) -> None:
+def test_a_name_that_leads_elsewhere_is_refused(name, text, tmp_path, audited):
     global opened
     scenes, out = tmp_path / "scenes", tmp_path / "out"
     (scenes / "a").mkdir(parents=True)

@@ -2,12 +2,11 @@
 
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import given
 from jsonschema import Draft202012Validator
-from strategies import Document, documents
+from strategies import documents
 
 from contact_scene import (
     scene_schema,
@@ -17,19 +16,19 @@ SCENES = Path(__file__).resolve().parents[1] / "scenes"
 VALIDATOR = Draft202012Validator(scene_schema())
 
 
-def objects(schema: Any) -> list[Any]:
+def objects(schema):
     entries = schema.values() if isinstance(schema, dict) else schema
     nested = [o for e in entries if isinstance(e, dict | list) for o in objects(e)]
     return nested + ([schema] if isinstance(schema, dict) and "properties" in schema else [])
 
 
 @given(documents())
-def test_it_admits_every_valid_scene(document: Document) -> None:
+def test_it_admits_every_valid_scene(document):
     assert VALIDATOR.is_valid(document)
 
 
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
-def test_it_admits_every_scene_shipped(path: Path) -> None:
+def test_it_admits_every_scene_shipped(path):
     assert VALIDATOR.is_valid(tomllib.loads(path.read_text()))
 
 
@@ -49,13 +48,13 @@ def test_it_admits_every_scene_shipped(path: Path) -> None:
         ("extra", 1),
     ],
 )
-def test_it_refuses_what_the_reader_refuses(key: str, value: Any) -> None:
+def test_it_refuses_what_the_reader_refuses(key, value):
     document = tomllib.loads((SCENES / "hertz.toml").read_text())
     assert VALIDATOR.is_valid(document)
     assert not VALIDATOR.is_valid(document | {key: value})
 
 
-def test_every_key_is_described() -> None:
+def test_every_key_is_described():
     assert objects(scene_schema())
     for table in objects(scene_schema()):
         for key, entry in table["properties"].items():

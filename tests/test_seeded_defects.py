@@ -57,7 +57,7 @@ def different(one: dict[str, dict[str, Any]], other: dict[str, dict[str, Any]]) 
     }
 
 
-def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
+def test_defects_are_many_and_name_cases_of_the_catalogue():
     known = set(CASES)
     assert len(DEFECTS) >= 22
     for defect in DEFECTS.values():
@@ -67,15 +67,13 @@ def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
 
 
 @pytest.fixture(scope="module")
-def left() -> list[dict[str, dict[str, Any]]]:
+def left():
     """What names stood for when the last defect had been taken out."""
     return [namespaces()]
 
 
 @pytest.mark.parametrize("name", DEFECTS)
-def test_defect_changes_something_and_leaves_nothing_behind(
-    name: str, left: list[dict[str, dict[str, Any]]]
-) -> None:
+def test_defect_changes_something_and_leaves_nothing_behind(name, left):
     with planted(DEFECTS[name]):
         during = namespaces()
     after, before = namespaces(), left.pop()
@@ -84,7 +82,7 @@ def test_defect_changes_something_and_leaves_nothing_behind(
     assert not different(before, after)
 
 
-def test_defect_is_taken_out_when_something_goes_wrong_under_it() -> None:
+def test_defect_is_taken_out_when_something_goes_wrong_under_it():
     before = namespaces()
     with pytest.raises(ArithmeticError), planted(DEFECTS["normal-bias"]):
         raise ArithmeticError
@@ -98,5 +96,5 @@ def test_defect_is_taken_out_when_something_goes_wrong_under_it() -> None:
         for run in FAST_RUNS
     ],
 )
-def test_defect_is_caught(run: DefectRun) -> None:
+def test_defect_is_caught(run):
     assert failed_verdicts(run.compute())

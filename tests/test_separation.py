@@ -1,6 +1,6 @@
 """Tests of the separation of the bodies: empty contact, and return from the virgin state."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -50,18 +50,18 @@ HISTORIES = {
 }
 
 
-def solved(steps: tuple[dict, ...], solver: Any, friction: float | None = 0.1) -> Any:
+def solved(steps, solver, friction=0.1):
     return slipstick.solve(scene(*steps, friction=friction), solver, SOLVERS[solver])
 
 
-def close(one: Any, other: Any, exponent: int) -> bool:
+def close(one, other, exponent):
     part = 10.0**exponent
     return np.allclose(one, other, rtol=part, atol=part * np.max(np.abs(other)) + 1e-300)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("name", HISTORIES)
-def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
+def test_return_is_a_virgin_contact(name, solver):
     history = HISTORIES[name]
     whole = solved((*history.before, *history.after), solver, history.friction)
     virgin, again = solved(history.virgin, solver, history.friction).steps, whole.steps
@@ -96,7 +96,7 @@ def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
 
 
 @pytest.mark.parametrize("solver", [solver for solver in SOLVERS if solver != "fem"])
-def test_separation_is_the_limit_of_small_loads(solver: str) -> None:
+def test_separation_is_the_limit_of_small_loads(solver):
     """The point that loses contact last has not slipped: the residual shift vanishes with W. The
     dissipated energy agrees with that of a history that ends just above 0."""
     # A penalty overlaps in this unloading, at any load.
@@ -112,7 +112,7 @@ def test_separation_is_the_limit_of_small_loads(solver: str) -> None:
     assert abs(apart.dissipated_energy - near.dissipated_energy) <= uncertain
 
 
-def test_tilted_bodies_separate_at_first_touch() -> None:
+def test_tilted_bodies_separate_at_first_touch():
     """A paraboloid of radius R, tilted by φ about the origin, first touches at −Rφ²/2."""
     slope = 1e-3
     steps = {**PRESS, "tilt": (0.0, slope)}, {"normal_force": 0.0}, PRESS
@@ -125,7 +125,7 @@ def test_tilted_bodies_separate_at_first_touch() -> None:
 
 @pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity"])
 @pytest.mark.parametrize("returns", [False, True])
-def test_increments_before_first_touch_are_empty(solver: str, returns: bool) -> None:
+def test_increments_before_first_touch_are_empty(solver, returns):
     """The first of 30 lies within a cell or ring. The end is that of one increment."""
     before = (*LED, slide(1, **FEW), {"approach": 0.0, **slide(1)}) if returns else ()
     posed = (*before, {**LED[0], "increments": 30})

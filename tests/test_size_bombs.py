@@ -5,16 +5,15 @@ import json
 import os
 import time
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 import pytest
 from command import outcome
-from processes import Ended, run
+from processes import run
 from small_result import small_result
 
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, read_checkpoint_file
@@ -40,7 +39,7 @@ def sparse(path: Path, content: bytes) -> None:
     os.truncate(path, 100_000 * MEGABYTE)
 
 
-SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
+SCENE_BOMBS = {
     "keys": (lambda path: path.write_bytes(b"a = 1\n" * (100 * MEGABYTE // 6)), "too large"),
     "zeros": (lambda path: sparse(path, b"title = 'x'\n"), "too large"),
     "steps": (lambda path: path.write_bytes(b"[[loading]]\n" * 800_000), "too many keys"),
@@ -56,7 +55,7 @@ SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
 
 
 @pytest.fixture(scope="module")
-def refusal_of_nothing(tmp_path_factory: pytest.TempPathFactory) -> Ended:
+def refusal_of_nothing(tmp_path_factory):
     """What it takes to refuse a small file: Python and its libraries."""
     folder = tmp_path_factory.mktemp("small")
     (folder / "scene.toml").touch()
@@ -64,9 +63,7 @@ def refusal_of_nothing(tmp_path_factory: pytest.TempPathFactory) -> Ended:
 
 
 @pytest.mark.parametrize(("write", "words"), SCENE_BOMBS.values(), ids=SCENE_BOMBS)
-def test_huge_scene_is_refused_at_once(
-    tmp_path: Path, refusal_of_nothing: Ended, write: Callable[[Path], object], words: str
-) -> None:
+def test_huge_scene_is_refused_at_once(tmp_path, refusal_of_nothing, write, words):
     write(tmp_path / "scene.toml")
     ended = run(tmp_path, "check", "scene.toml")
     assert ended.code == 2
@@ -95,7 +92,7 @@ def frugal() -> Iterator[None]:
         tracemalloc.stop()
 
 
-def claiming(result: Any, path: Path, **changed: tuple[int, ...]) -> None:
+def claiming(result, path, **changed):
     """A stored run in which datasets claim other shapes, and were never written."""
     write_result(result, path.parent, figures="none")
     with h5py.File(path, "a") as file:
@@ -126,7 +123,7 @@ def surface_result(path: Path, **changed: tuple[int, ...]) -> None:
 
 NOT_A_RESULT = f"is not the {FIELDS} of a run: "
 DIGEST = "its digest is not that"
-RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
+RESULT_BOMBS = {
     "grid": (lambda path: surface_result(path, increments_of_pressure=(6, HUGE, HUGE)), CLAIM),
     "pressure": (lambda path: surface_result(path, increments_of_pressure=(6, 9, HUGE)), "shape"),
     "shear": (lambda path: surface_result(path, increments_of_shear=(6, 2, 9, HUGE)), "shape"),
@@ -152,9 +149,7 @@ def many_chunks(path: Path) -> None:
 
 
 @pytest.mark.parametrize(("write", "words"), RESULT_BOMBS.values(), ids=RESULT_BOMBS)
-def test_claims_of_a_surface_result_are_refused_unread(
-    tmp_path: Path, write: Callable[[Path], object], words: str
-) -> None:
+def test_claims_of_a_surface_result_are_refused_unread(tmp_path, write, words):
     write(tmp_path / FIELDS)
     words = words if words == DIGEST else f"{NOT_A_RESULT}.*{words}"
     with frugal(), pytest.raises(NoSuchState, match=words):
@@ -163,7 +158,7 @@ def test_claims_of_a_surface_result_are_refused_unread(
 
 def replaced(file: h5py.File, name: str) -> np.ndarray:
     """The values of a dataset that is taken out of a file."""
-    values: np.ndarray = file[name][()]
+    values = file[name][()]
     del file[name]
     return values
 
@@ -186,12 +181,12 @@ def external_link(file: h5py.File, folder: Path) -> None:
     ],
 )
 def test_fields_that_were_changed_or_lie_elsewhere_are_refused(
-    change: Callable[[h5py.File, Path], None],
-    own_digest: bool,
-    words: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    change,
+    own_digest,
+    words,
+    tmp_path,
+    monkeypatch,
+):
     """HDF5, which a damaged file may crash, reads nothing of a file with another digest."""
     surface_result(tmp_path / FIELDS)
     with h5py.File(tmp_path / FIELDS, "a") as file:
@@ -207,7 +202,7 @@ def test_fields_that_were_changed_or_lie_elsewhere_are_refused(
 
 
 @pytest.mark.parametrize("head", [b"", FORMAT + b"\nthis solve\n"])
-def test_checkpoint_of_zeros_is_refused_unread(tmp_path: Path, head: bytes) -> None:
+def test_checkpoint_of_zeros_is_refused_unread(tmp_path, head):
     sparse(tmp_path / "part", head)
     with frugal(), pytest.raises(Unusable, match=r"not a checkpoint of this version|larger than"):
         read_checkpoint_file(tmp_path / "part", "this solve")

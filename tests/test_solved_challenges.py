@@ -1,9 +1,5 @@
 """Tests of the references of challenges: solvers of this program answer them within a class."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -11,7 +7,6 @@ import slipstick
 from contact_scene import RIGID, Body
 from semi_analytical.influence.bodies import influence_coefficients
 from verification import Answer, judge
-from verification.challenge.answer import Key
 from verification.challenge.cases import MOVED
 from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
@@ -19,7 +14,7 @@ from verification.judging.outcome import Status
 OTHER_NAMES = {"shift": "tangential_shift", "moment": "moment"}
 
 
-def number(problem: Posed, key: Key, steps: Any) -> float | None:
+def number(problem, key, steps):
     quantity, step = key
     end, (name, _, axis) = steps[step - 1], quantity.rpartition("_")
     if quantity == "energy_per_cycle":
@@ -28,7 +23,7 @@ def number(problem: Posed, key: Key, steps: Any) -> float | None:
     return found if found is None or np.isscalar(found) else float(found["xy".index(axis)])
 
 
-def answer(problem: Posed, on: Any, solver: str, fineness: int) -> Answer:
+def answer(problem, on, solver, fineness):
     scene = slipstick.Scene.model_validate(problem.scene)
     increments = 1 if scene.friction is None else 10 * fineness
     loading = [
@@ -60,7 +55,7 @@ def on_radii(problem: Posed, level: int) -> Answer:
         ("coated_paraboloid/E1_over_E2=4", on_radii, 2, "A"),
     ],
 )
-def test_solvers_answer_within_a_class(name: str, solve: Any, levels: int, grade: str) -> None:
+def test_solvers_answer_within_a_class(name, solve, levels, grade):
     found = judge(name, solve, levels, grade, seconds=None)
     failed = [row for row in found.rows if row.status is Status.FAIL]
     assert not failed
@@ -68,10 +63,10 @@ def test_solvers_answer_within_a_class(name: str, solve: Any, levels: int, grade
 
 
 @pytest.mark.parametrize("ratio", ["0.5", "2"])
-def test_influence_coefficients_answer_the_patch(ratio: str) -> None:
+def test_influence_coefficients_answer_the_patch(ratio):
     """The patch is one cell, and the points are centres of others."""
 
-    def solve(problem: Posed, level: int) -> Answer:
+    def solve(problem, level):
         side, traction = (problem.scene["patch"][name] for name in ("side", "traction"))
         body, points = Body.model_validate(problem.scene["body"]), {}
         for key, places in problem.places.items():

@@ -1,6 +1,5 @@
 """Tests of stated errors: they cover the true errors, or the number is marked as not converged."""
 
-from collections.abc import Callable
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -49,7 +48,6 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.contact_features import PEAK
-from contact_scene.discretised import Fineness
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
 )
@@ -71,7 +69,7 @@ from verification.problems.problem import surface_of
 SLOW = pytest.mark.slow
 
 
-def test_a_slip_zone_smaller_than_a_cell_leaves_a_cell_open() -> None:
+def test_a_slip_zone_smaller_than_a_cell_leaves_a_cell_open():
     """Shear that no cell of 16² slips by is locked in; on 12² and 24² none slips either."""
     unloaded = {"normal_force": 0.5 * LOAD}
     posed = rubbed(push(0.67), push(0.0), unloaded, body=Body(material=steel()))
@@ -81,7 +79,7 @@ def test_a_slip_zone_smaller_than_a_cell_leaves_a_cell_open() -> None:
     assert 0.01 * A < wrong < error < 5 * wrong
 
 
-def test_a_coarse_edge_that_is_not_fitted_does_not_count_for_a_fitted_one() -> None:
+def test_a_coarse_edge_that_is_not_fitted_does_not_count_for_a_fitted_one():
     """On a third of 40² cells the stick zone has 3 cells; all three solves give 4.4 times."""
     posed = rubbed(push(0.9), body=Body(material=steel(0.0)))
     result = package.solve(posed, "semi-analytical", cells(40))
@@ -90,7 +88,7 @@ def test_a_coarse_edge_that_is_not_fitted_does_not_count_for_a_fitted_one() -> N
     assert wrong < size(stated_errors(result).steps[-1]["stick_radius"]) < 3 * wrong
 
 
-def test_slip_of_torsion_on_cells_states_a_regular_error() -> None:
+def test_slip_of_torsion_on_cells_states_a_regular_error():
     """The edge correction leaves torsion out: three times the spread of the coarse solves is too
     small on 56² cells. The closed form on rings is the reference."""
     turns = [{"torque": part * LIMIT * A} for part in (0.5, -0.5, 0.5)]
@@ -104,7 +102,7 @@ def test_slip_of_torsion_on_cells_states_a_regular_error() -> None:
     assert 0.5 * error < abs(ours - known) < error
 
 
-def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
+def test_a_stick_zone_in_the_middle_has_an_exact_centre():
     posed = rubbed(push(0.6), push(-0.6), push(0.6), body=Body(material=LOOSE))
     result = package.solve(posed, "semi-analytical", cells(24))
     assert stated_errors(result).steps[-1]["stick_centre"].status is ErrorStatus.EXACT
@@ -116,7 +114,7 @@ LOOSE = steel(poisson_ratio=0.0)
 FILM = Body(material=LOOSE, layers=(Layer(thickness=A, material=steel(young_modulus=2 * YOUNG)),))
 
 
-def rubbed(*loading: dict[str, Any], body: Body, like: bool = True, **more: Any) -> Scene:
+def rubbed(*loading, body, like=True, **more):
     ball = paraboloid(body.material if like else RIGID, **more)
     ball = ball.model_copy(update={"layers": body.layers if like else ()})
     return scene(PRESS, *loading, indenter=ball).model_copy(update={"body": body})
@@ -143,12 +141,12 @@ MATTERS = {
 
 
 @pytest.mark.parametrize("name", MATTERS)
-def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None:
+def test_increments_have_no_error_in_three_proved_cases_alone(name):
     posed, expected = MATTERS[name]
     assert list(has_increment_error(posed)) == expected
 
 
-def test_a_push_near_gross_slip_is_marked() -> None:
+def test_a_push_near_gross_slip_is_marked():
     near, far, loose = (
         near_gross_slip(rubbed(push(part), push(0.1), body=Body(material=matter)))
         for part, matter in ((0.999, steel()), (0.9, steel()), (0.999, LOOSE))
@@ -162,7 +160,7 @@ def test_a_push_near_gross_slip_is_marked() -> None:
 
 @pytest.mark.parametrize("radii", [(0.01, 0.002), (0.002, 0.01), (0.01, 1.0)])
 @pytest.mark.parametrize("by", ["force", "approach"])
-def test_a_pressed_ellipsoid_is_that_of_hertz(radii, by) -> None:
+def test_a_pressed_ellipsoid_is_that_of_hertz(radii, by):
     pair = steel(0.3)
     exact = EllipticalContact.under_load(LOAD, radii, contact_modulus((YOUNG, 0.3), (YOUNG, 0.3)))
     step = PRESS if by == "force" else {"approach": exact.approach}
@@ -182,7 +180,7 @@ def test_a_pressed_ellipsoid_is_that_of_hertz(radii, by) -> None:
     assert "elastic_energy" not in pushed  # the shear stores energy, too
 
 
-def test_scenes_without_reference() -> None:
+def test_scenes_without_reference():
     pair = {"indenter": paraboloid(RIGID), "body": steel()}
     for posed in (
         scene(PRESS, **pair),  # coupled by friction
@@ -230,7 +228,7 @@ def ridge(**shape: float) -> Known:
 HALF = 0.5e-3
 FLAT = 0.2e-3
 ROUND = 10e-3
-MAPPED: dict[str, tuple[Callable[[Any], Any], dict[str, float]]] = {
+MAPPED = {
     # Sneddon's solution by quadrature.
     "flat that ends in a parabola": (
         lambda r: np.square(np.maximum(r - FLAT, 0.0)) / (2 * ROUND),
@@ -248,8 +246,8 @@ def mapped(name: str, count: int) -> Known:
     """A shape of revolution by the heights at some of its points."""
     height, exact = MAPPED[name]
     at = (np.arange(count) + 0.5) * 2 * HALF / count - HALF
-    heights: Any = height(np.hypot(at[:, None], at))
-    indenter = HeightMap(file=heights, spacing=2 * HALF / count, material=RIGID)  # type: ignore[arg-type]
+    heights = height(np.hypot(at[:, None], at))
+    indenter = HeightMap(file=heights, spacing=2 * HALF / count, material=RIGID)
     body = Body(material=steel(0.3, 70e9))
     loads = (LoadStep(normal_force=100.0),)
     return Known(Scene(indenter=indenter, body=body, loading=loads), exact)
@@ -260,7 +258,7 @@ def revolved(name: str, count: int, solver: str) -> Known:
     height, exact = MAPPED[name]
     radii = np.linspace(0.0, 0.6e-3, count)
     posed = mapped(name, 4).scene
-    profile = RevolvedProfile(file=np.stack([radii, height(radii)], axis=1), material=RIGID)  # type: ignore[arg-type]
+    profile = RevolvedProfile(file=np.stack([radii, height(radii)], axis=1), material=RIGID)
     return Known(posed.model_copy(update={"indenter": profile}), exact, None, solver)
 
 
@@ -308,7 +306,7 @@ def unresolved_rings() -> Known:
     return Known(posed, exact, None, "radial", 0)
 
 
-KNOWN: dict[str, Callable[[], Known]] = {
+KNOWN = {
     "rounded flat": lambda: ridge(flat=0.5 * A),
     "ring": lambda: ridge(ring=0.5 * A),
     **{
@@ -353,7 +351,7 @@ KNOWN: dict[str, Callable[[], Known]] = {
         cells(64),
     ),
 }
-EXPENSIVE: dict[str, Callable[[], Known]] = {
+EXPENSIVE = {
     "thin stiff film": lambda: Known(
         indented(
             6.35e-3,
@@ -417,9 +415,7 @@ WIDE = {("profile of a flat that ends in a parabola, 24 points, fem-complementar
     ],
     ids=[*KNOWN, *EXPENSIVE],
 )
-def test_errors_cover_what_is_wrong(
-    known: Callable[[], Known], request: pytest.FixtureRequest
-) -> None:
+def test_errors_cover_what_is_wrong(known, request):
     """Or the number is marked; an error is within 100 times what is wrong, or 2 % of the number."""
     posed, exact, asked, solver, step, spoilt, uncertain = known()
     result = package.solve(posed, solver, asked)
@@ -439,14 +435,14 @@ def test_errors_cover_what_is_wrong(
 
 
 def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     """And no number with an error where none has a result."""
     posed = rubbed(push(0.6), body=Body(material=LOOSE))
     result, refused = solve(posed, grid(16), 1e-8), {12}
     solved = CellSolver.solve
 
-    def refusing(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
+    def refusing(self, fineness, *more):
         if fineness.space.cells[0] in refused:
             raise NotConverged("the increment", 3, 1e-3, 1e-8)
         return solved(self, fineness, *more)
@@ -461,7 +457,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     assert last["approach"].error is not None  # known without a coarse solve
 
 
-def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch):
     posed = scene(PRESS, friction=None)
     exact = package.solve(posed, "semi-analytical", cells(24)).steps[0]
     monkeypatch.setattr(pressure_correction, "SETTLED", 0.1)
@@ -472,7 +468,7 @@ def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch: pytest.Monk
         assert 0 < abs(getattr(rough, name) / getattr(exact, name) - 1) <= 2 * features.left[name]
 
 
-def test_what_the_load_prescribes_is_exact() -> None:
+def test_what_the_load_prescribes_is_exact():
     of = scene({"normal_force": 1e3}, {"tangential_shift": (1e-7, 0.0)})
     by_force, by_shift = stated_errors(solve(of, grid(16), 1e-8)).steps
     assert by_force["normal_force"].status is ErrorStatus.EXACT
@@ -486,7 +482,7 @@ def test_what_the_load_prescribes_is_exact() -> None:
         assert f"{other}_amplitude" not in names
 
 
-def test_an_area_leaves_twice_the_part_of_its_radius() -> None:
+def test_an_area_leaves_twice_the_part_of_its_radius():
     result = package.solve(scene(PRESS, push(0.5)), "semi-analytical", cells(24))
     for features in CellSolver.of(result).features(result):
         for zone in ("contact", "stick"):
@@ -494,7 +490,7 @@ def test_an_area_leaves_twice_the_part_of_its_radius() -> None:
     assert min(features.left["contact_radius"], features.left["stick_radius"]) > 0
 
 
-def test_increments_of_coarse_solves() -> None:
+def test_increments_of_coarse_solves():
     counts = (1, 2, 5, 20, 40)
     matters = (False, True, True, True, True)
     many, few = coarse_increment_counts(counts, matters)

@@ -39,9 +39,7 @@ def places(grid: SurfaceGrid) -> tuple[Field, Field]:
 
 @pytest.mark.parametrize("depth", [0.0, 0.5, 1.0, 2.0])
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 0.8)])
-def test_stress_near_the_edge_is_that_of_sliding(
-    depth: float, spacing: tuple[float, float]
-) -> None:
+def test_stress_near_the_edge_is_that_of_sliding(depth, spacing):
     """Every component within three cells of the edge, in the peak pressure."""
     grid, pressure = pressed_on(spacing)
     shear = np.stack([SLIDING * pressure, 0 * pressure])
@@ -57,7 +55,7 @@ def test_stress_near_the_edge_is_that_of_sliding(
     assert error[0] > 8 * error[1]
 
 
-def test_an_edge_of_no_root_is_not_seen() -> None:
+def test_an_edge_of_no_root_is_not_seen():
     """Pressure of a flat punch and of roughness; shear of torsion without slip, r over the root."""
     grid, pressure = pressed_on()
     x, y = places(grid)
@@ -70,7 +68,7 @@ def test_an_edge_of_no_root_is_not_seen() -> None:
             near_edge(STACK, grid, unlike, shear)
 
 
-def test_a_stress_that_is_largest_far_behind_the_contact_is_found() -> None:
+def test_a_stress_that_is_largest_far_behind_the_contact_is_found():
     """At the base of a film, about two contact radii behind the middle."""
     radius = RADIUS / 2
     pressure = ellipse_means(24, (radius, radius), (11.8, 11.6))

@@ -29,7 +29,7 @@ window = ["1.2 mm", "1.2 mm"]
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def place(tmp_path_factory):
     """A scene, and its run in `run`."""
     directory = tmp_path_factory.mktemp("stress")
     scene = directory / "scene.toml"
@@ -39,7 +39,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return directory
 
 
-def at_points(place: Path, source: str, out: str, *arguments: object) -> list[dict[str, str]]:
+def at_points(place, source, out, *arguments):
     succeeded("stress", place / source, "-o", place / out, *arguments, cwd=ROOT)
     return rows(place / out / "stress_history.csv")
 
@@ -47,7 +47,7 @@ def at_points(place: Path, source: str, out: str, *arguments: object) -> list[di
 SIGMA = tuple(f"sigma_{name} [Pa]" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
 
 
-def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(place: Path) -> None:
+def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(place):
     points = ("--at", "0.3 mm,0,0.25 mm", "--at", "0,0.3 mm,0.25 mm", "--at", "-.3mm,.2mm,.15mm")
     cells = at_points(place, "run", "cells", *points)
     rings = at_points(place, "scene.toml", "rings", *points, "--solver", "radial")
@@ -62,7 +62,7 @@ def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(plac
     assert abs(float(rings[2]["sigma_xy [Pa]"])) > 1e7
 
 
-def test_a_table_at_points_is_written_without_a_figure_if_none_is_asked_for(place: Path) -> None:
+def test_a_table_at_points_is_written_without_a_figure_if_none_is_asked_for(place):
     """A figure of an earlier call, which shows other numbers, is removed."""
     point, figure = ("--at", "0.3 mm,0,0.25 mm"), place / "drawn/stress_history.png"
     at_points(place, "run", "drawn", *point)

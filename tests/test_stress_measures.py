@@ -10,7 +10,7 @@ from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.points import StressPoints
 
 
-def test_measures_of_a_pure_shear() -> None:
+def test_measures_of_a_pure_shear():
     nothing, one = np.zeros(1), np.zeros((3, 1))
     shear = np.array([0, 0, 0, 0, 3.0, 0])[:, None]
     points = StressPoints(nothing, nothing, nothing, nothing.astype(int), one, shear, nothing > 0)
@@ -50,7 +50,7 @@ def test_principal_stresses_keep_their_digits_and_make_up_the_von_mises_stress(v
         assert von_mises(components(whole)) == pytest.approx(equivalent, rel=0, abs=near)
 
 
-def test_round_off_does_not_choose_the_place_of_a_largest_stress_that_is_zero() -> None:
+def test_round_off_does_not_choose_the_place_of_a_largest_stress_that_is_zero():
     """Beside a contact the surface is free of stress: the first of equal points counts."""
     assert index_of_largest(np.array([-1e9, 2e-7, 5e-7, 0.0, -np.inf])) == 1
     assert index_of_largest(np.array([-1e9, 2e-7, 1.0, 0.0, -np.inf])) == 2

@@ -1,11 +1,7 @@
 """Tests of the stress below contacts of the radial solver, against closed forms and another
 solver."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import meshio
 import numpy as np
@@ -34,7 +30,6 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
@@ -69,7 +64,7 @@ def below(body: Body) -> SubsurfaceDisc:
 
 
 @given(depth=st.floats(1e-3, 5.0))
-def test_below_a_ball_it_is_hubers(depth: float) -> None:
+def test_below_a_ball_it_is_hubers(depth):
     fields = below(BARE).compute_fields([Level(depth, 0)], RADII)[0]
     exact = huber_stress(RADII, depth, 1.0, 1.0, 0.3)
     for ours, theirs in zip(
@@ -78,7 +73,7 @@ def test_below_a_ball_it_is_hubers(depth: float) -> None:
         assert_allclose(ours, theirs, rtol=0, atol=1e-11)
 
 
-def test_the_surface_has_the_fields_just_below_it() -> None:
+def test_the_surface_has_the_fields_just_below_it():
     """Away from the edge, where the pressure has a vertical tangent."""
     radii = np.array([0.0, 0.2, 0.6, 0.9, 1.2, 2.5])
     surface, under = below(BARE).compute_fields([Level(0.0, 0), Level(1e-8, 0)], radii)
@@ -86,9 +81,7 @@ def test_the_surface_has_the_fields_just_below_it() -> None:
 
 
 @given(modulus=st.floats(0.1, 10.0), thickness=st.floats(0.1, 2.0), ratio=st.floats(-0.5, 0.5))
-def test_an_interface_carries_what_it_is_given(
-    modulus: float, thickness: float, ratio: float
-) -> None:
+def test_an_interface_carries_what_it_is_given(modulus, thickness, ratio):
     """Displacement and traction are the same on both sides, by two ways of the response."""
     sides = [Level(thickness, 0), Level(thickness, 1)]
     above, under = below(coated(modulus, thickness, ratio)).compute_fields(sides, RADII)
@@ -104,10 +97,10 @@ SAME = Paraboloid(radius=1.0, material=SOFT)
 W = 2 * np.pi / 3
 
 
-def circle_of(q_x: object, q_y: object, p: object, centre: float = 0.0) -> LoadedCircle:
+def circle_of(q_x, q_y, p, centre=0.0):
     """From functions of η and the angle."""
     eta, turn = np.linspace(0, 1, 241)[:, None], 2 * np.pi * np.arange(360) / 360
-    parts = [f(eta, turn) + 0 * eta * turn for f in (q_x, q_y, p)]  # type: ignore[operator]
+    parts = [f(eta, turn) + 0 * eta * turn for f in (q_x, q_y, p)]
     return LoadedCircle(1.0, centre, np.stack(parts))
 
 
@@ -120,8 +113,8 @@ ANYHOW = circle_of(
 )
 
 
-def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
-    def tractions(x: Array, y: Array) -> Array:
+def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side():
+    def tractions(x, y):
         p = np.sqrt(np.maximum(1 - x**2 - y**2, 0.0)) * (1 + 0.3 * x)
         return np.stack([0.1 * p * (1 + 0.5 * x), 0.05 * p * y, p])
 
@@ -134,7 +127,7 @@ def test_a_fitted_circle_has_the_tractions_of_its_nodes_on_every_side() -> None:
     assert_allclose(found, tractions(x, y), rtol=2e-3)
 
 
-def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring() -> None:
+def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring():
     radii, angles = np.linspace(0.0, 1.2, 61), np.linspace(0, np.pi, 10)
     s = np.maximum(1 - radii**2, 0.0)
     p = np.sqrt(np.where(s > 0, 0.02 + s**2, 0.0))[:, None] * np.ones_like(angles)
@@ -143,7 +136,7 @@ def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring() -> None:
 
 
 @pytest.mark.parametrize("scatters", [False, True])
-def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters: bool) -> None:
+def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters):
     radii = np.append(np.linspace(0.0, 0.98, 25), [0.992, 0.996, 0.9999, 1.01, 1.2])
     p = np.sqrt(np.maximum(1 - radii**2, 0.0))
     p[-5:-2] *= np.array([0.8, 1.3, 5.0]) if scatters else 1.0
@@ -152,7 +145,7 @@ def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatte
 
 
 @pytest.mark.parametrize("r", [1.0, 1 + 4.0**-5, 1 - 4.0**-5, 0.5])
-def test_round_off_of_a_position_does_not_change_its_stress(r: float) -> None:
+def test_round_off_of_a_position_does_not_change_its_stress(r):
     """Shear that turns about the axis has a kink there, which the rays resolve in part."""
     kinked = circle_of(lambda e, t: MU * np.cos(8 * t), lambda e, t: 0.0, lambda e, t: 1.0)
     x = r + 1e-15 * np.arange(-4, 5)
@@ -161,7 +154,7 @@ def test_round_off_of_a_position_does_not_change_its_stress(r: float) -> None:
 
 
 @pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])
-def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
+def test_below_a_sliding_ball_it_is_hamiltons(depth):
     drawn = np.random.default_rng(1)
     near = 10.0 ** -drawn.uniform(0.5, 7 if depth else 2, 40)
     r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0, 1.0]])
@@ -175,7 +168,7 @@ def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
         assert_allclose(found[:, inner], exact[:, inner], atol=allowed)
 
 
-def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
+def test_a_stiffer_layer_is_bonded_to_its_base():
     """Displacement and what acts on the interface are the same from both sides."""
     film = SubsurfaceCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
     x, y = np.random.default_rng(3).uniform(-2, 2, (2, 30))
@@ -202,8 +195,8 @@ def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
 
 
 def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_reverse(
-    tmp_path: Path,
-) -> None:
+    tmp_path,
+):
     result = radial.solve(pushed((0.6, 0.8)))
     slipstick.save(result, tmp_path / "run", figures="none")
     end = result.steps[-1]
@@ -218,9 +211,7 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
 
 
 @pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0)])
-def test_stress_at_points_and_in_files_turns_with_the_load(
-    direction: tuple[float, float], rng: np.random.Generator, tmp_path: Path
-) -> None:
+def test_stress_at_points_and_in_files_turns_with_the_load(direction, rng, tmp_path):
     """A vector turns by a rotation, a stress by one on each of its indices."""
     c, s = direction
     turn, voigt = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
@@ -249,7 +240,7 @@ TWISTED = frictional(
 
 
 @pytest.mark.parametrize("scene", [TWISTED, pushed()], ids=["twisted", "pushed"])
-def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> None:
+def test_a_section_has_on_both_sides_the_stress_of_its_points(scene):
     state = state_of_result(radial.solve(scene), None)
     section = OnDisc(state).stress([0.3]).section.select_columns(slice(None, None, 9))
     levels = [Level(0.3, 0)] * section.x.size
@@ -277,9 +268,7 @@ def on_steel(thickness: float, modulus: float) -> Body:
     ],
 )
 @pytest.mark.parametrize("strain", [0.0, -1e-4])
-def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
-    solver: str, sizes: SurfaceDiscretisation | None, strain: float
-) -> None:
+def test_the_shear_far_below_a_contact_is_that_below_a_point_force(solver, sizes, strain):
     """Largest at half the depth from the axis, far beyond the points next to the contact. A bulk
     strain, whose stress is as large at any distance, does not change it."""
     depth, force = 2e-3, 10.0  # of contacts with radii of 0.05 mm
@@ -297,7 +286,7 @@ def test_the_shear_far_below_a_contact_is_that_below_a_point_force(
     assert_allclose(np.hypot(shear.x, shear.y), depth / 2, rtol=0.05)
 
 
-def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
+def test_no_point_beside_a_contact_has_more_than_the_largest_stress():
     """On both sides of the interface of a thick soft layer, up to 200 contact radii away."""
     depth = 6e-3
     pushed = LoadStep(tangential_force=(50.0, 0.0))
@@ -314,7 +303,7 @@ def test_no_point_beside_a_contact_has_more_than_the_largest_stress() -> None:
             assert np.max(points.measures[measure]) <= (1 + 1e-3) * largest.value
 
 
-def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
+def test_the_error_below_gross_slip_is_smaller_than_the_stress():
     """Two refinements of a maximum have depths that differ by round-off."""
     steps = LoadStep(normal_force=1e3, increments=8), LoadStep(tangential_force=(100.0, 0.0))
     scene = frictional(Body(material=STEEL), LARGE, *steps)
@@ -323,15 +312,13 @@ def test_the_error_below_gross_slip_is_smaller_than_the_stress() -> None:
     field = OnDisc(state).stress()
     largest = [e for e in extremes(field) if e.measure == "von_mises"]
     (error,) = stress_errors(state, field, largest)
-    assert error.error is not None
     assert float(error.error) < 0.05 * largest[0].value
 
 
-def test_rings_at_the_edge_of_a_contact_at_points_do_not_change_its_stress() -> None:
+def test_rings_at_the_edge_of_a_contact_at_points_do_not_change_its_stress():
     """After a change of the normal load under torque, the tractions of single rings scatter."""
     steps = (LoadStep(normal_force=force, torque=0.01, increments=2) for force in (2.0, 1.8))
     state = state_of_result(slipstick.solve(frictional(BARE, BALL, *steps), "radial"), 2)
-    assert state.pressed is not None
     outermost = np.hypot(*state.surface.positions) > 0.99 * state.pressed[1]
     pressure = state.tractions["pressure"]
     assert np.any(pressure[outermost] > 0)
@@ -363,7 +350,7 @@ OTHER_LAYERS = tuple(
         (Body(material=STEEL, layers=OTHER_LAYERS), STEEL),
     ],
 )
-def test_cells_have_the_largest_stresses_of_the_radial_solver(body: Body, upper: Any) -> None:
+def test_cells_have_the_largest_stresses_of_the_radial_solver(body, upper):
     """Also where the tension of an interface begins beyond the first window, in a base that begins
     below the usual depths, and between the points of sections and depths."""
     scene = scene_of(body, Paraboloid(radius=18e-3, material=upper), 1e3)

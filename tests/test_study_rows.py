@@ -36,17 +36,17 @@ class Asked:
     cells: tuple[int, int] = (4, 6)
 
 
-def test_the_clock_changes_no_other_file() -> None:
+def test_the_clock_changes_no_other_file():
     one, other = (row_files({"one": CaseRecord(seconds=s, repeats=n)}) for s, n in ((1, 1), (2, 5)))
     assert {name for name in one if one[name] != other[name]} == {"seconds.csv"}
 
 
-def test_parameters_are_the_plain_values_of_a_case() -> None:
+def test_parameters_are_the_plain_values_of_a_case():
     expected = {"name": "a", "how": "well", "ratio": 2.0, "cells": "4 x 6"}
     assert parameters_of(Asked("a")) == expected
 
 
-def test_cases_without_a_record_are_left_out() -> None:
+def test_cases_without_a_record_are_left_out():
     a, b = Asked("a"), Asked("b")
     assert found((a, b), {"b": CaseRecord()}) == {b: CaseRecord()}
 
@@ -60,7 +60,7 @@ anything = st.recursive(
 
 @example({"words": ["two  spaces", "a  ]  b", "[\n", "}{"]})
 @given(st.dictionaries(said, anything, max_size=3))
-def test_what_is_written_comes_back_whatever_brackets_its_texts_have(values: dict) -> None:
+def test_what_is_written_comes_back_whatever_brackets_its_texts_have(values):
     assert json.loads(json_text(values)) == values
 
 
@@ -71,7 +71,7 @@ class Ended(TypedRow):
     way: str = "none was said"
 
 
-def test_a_row_of_before_a_field_was_there_is_read_with_its_default() -> None:
+def test_a_row_of_before_a_field_was_there_is_read_with_its_default():
     before = Row(measures={"residual": 1e-9})
     assert Ended.of(before) == Ended(residual=1e-9)
     with pytest.raises(ValueError, match="residual"):

@@ -48,7 +48,7 @@ class InThisProcess(ThisProcess):
         return ["tcp://here:1"]
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        future: Future[Answer] = Future()
+        future = Future()
         answer = super().submit(compute, case).result()
         future.set_result(answer if self.code is None else replace(answer, code=self.code))
         return future
@@ -59,7 +59,7 @@ EARLIER = Number(value=9.0, process=1)
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> CaseStore:
+def store(tmp_path):
     return CaseStore(tmp_path, Number)
 
 
@@ -84,9 +84,7 @@ def end_of(
         (lambda whole: b"", "is damaged"),
     ],
 )
-def test_file_that_is_not_the_record_is_named_and_computed_again(
-    damage: Callable[[bytes], bytes], problem: str, store: CaseStore
-) -> None:
+def test_file_that_is_not_the_record_is_named_and_computed_again(damage, problem, store):
     store.save(CASE, EARLIER)
     path = store.path(CASE)
     path.write_bytes(damage(path.read_bytes()))
@@ -99,7 +97,7 @@ def test_file_that_is_not_the_record_is_named_and_computed_again(
     assert store.load(CASE) == end.record == Number(value=9.0, process=os.getpid())
 
 
-def test_record_of_other_sources_is_not_taken(store: CaseStore) -> None:
+def test_record_of_other_sources_is_not_taken(store):
     store.save(CASE, EARLIER, b"other sources")
     assert store.load(CASE) is None
     store.save(CASE, EARLIER)
@@ -107,16 +105,14 @@ def test_record_of_other_sources_is_not_taken(store: CaseStore) -> None:
     assert store.load(CASE) == EARLIER
 
 
-def test_fresh_takes_nothing_from_the_store(store: CaseStore) -> None:
+def test_fresh_takes_nothing_from_the_store(store):
     store.save(CASE, EARLIER)
     assert not end_of(store, fresh=True).stored
     assert store.load(CASE) == Number(value=9.0, process=os.getpid())
 
 
 @pytest.mark.parametrize("elsewhere", [False, True])
-def test_only_workers_elsewhere_must_have_the_same_sources(
-    elsewhere: bool, store: CaseStore
-) -> None:
+def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere, store):
     """A source that is edited during a run of hours does not stop it; nothing false is stored."""
     end = end_of(store, InThisProcess(elsewhere, b"edited"))
     assert (end.lost is None) is not elsewhere
@@ -124,8 +120,8 @@ def test_only_workers_elsewhere_must_have_the_same_sources(
     assert store.load(CASE) is None
 
 
-def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:
-    seen: list[CaseEnd] = []
+def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path):
+    seen = []
     cases = (
         Square(1.0),
         Dying(10.0),
@@ -152,7 +148,7 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
     assert [end.record for end in again] == [ends[0].record, ends[2].record]
 
 
-def test_a_worker_has_one_thread_whatever_was_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_has_one_thread_whatever_was_asked_for(monkeypatch):
     for variable in VARIABLES:
         monkeypatch.setenv(variable, "2")
     workers = LocalWorkers(1)
@@ -181,9 +177,7 @@ def stored(directory: Path, name: str = "stability") -> StudyRecord:
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_stored_study_is_found_again_and_its_page_shows_the_answer(
-    name: str, tmp_path: Path
-) -> None:
+def test_stored_study_is_found_again_and_its_page_shows_the_answer(name, tmp_path):
     record = stored(tmp_path, name)
     assert stored_studies(tmp_path) == (record,)
     page = (tmp_path / name / "index.html").read_text(encoding="utf-8")
@@ -192,14 +186,12 @@ def test_stored_study_is_found_again_and_its_page_shows_the_answer(
         assert statement.claim in html.unescape(page)
 
 
-def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(tmp_path, monkeypatch):
     """It waits aside until the new one is whole."""
     record = stored(tmp_path, "coated-tractions")
     directory = tmp_path / "coated-tractions"
 
-    def stopped(*_: object, **__: object) -> None:
+    def stopped(*_, **__):
         assert stored_studies(tmp_path) == ()
         raise KeyboardInterrupt
 
@@ -220,21 +212,19 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     ],
     ids=["cut short", "of another version"],
 )
-def test_stored_study_that_cannot_be_read_is_named(
-    damage: Callable[[str], str], tmp_path: Path
-) -> None:
+def test_stored_study_that_cannot_be_read_is_named(damage, tmp_path):
     stored(tmp_path)
     path = tmp_path / "stability" / "study.json"
     path.write_text(damage(path.read_text(encoding="utf-8")), encoding="utf-8")
     with pytest.raises(ValueError, match=r"stability.study\.json"):
         stored_records([tmp_path])
-    told: list[str] = []
+    told = []
     assert stored_records([tmp_path], told.append) == ()
     assert [str(path) in problem for problem in told] == [True]
 
 
 @pytest.mark.parametrize("said", [0.0, 9.0])
-def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path: Path, said: float) -> None:
+def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path, said):
     (end,) = run_cases([Timed(0.02, said)], CaseStore(tmp_path), InThisProcess(), lambda end: None)
     assert isinstance(end.record, CaseRecord)
     assert end.record.seconds == said if said else 0.02 <= end.record.seconds < 1.0

@@ -41,7 +41,7 @@ GOOD = CellRecord(
 
 
 @pytest.mark.parametrize(("level", "least"), [(Level.QUICK, 100), (Level.FULL, 2000)])
-def test_a_level_has_enough_cells_with_names_of_their_own(level: Level, least: int) -> None:
+def test_a_level_has_enough_cells_with_names_of_their_own(level, least):
     cells = study_cells(level, 32)
     assert len(cells) >= least
     assert len({cell.name for cell in cells}) == len(set(cells)) == len(cells)
@@ -67,24 +67,22 @@ def failing_with(error: Exception) -> Callable[[Posed], SolvedContact]:
     ],
     ids=repr,
 )
-def test_what_a_cell_is_refused_for_does_not_hang_on_words(
-    error: Exception, kind: Refusal, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_a_cell_is_refused_for_does_not_hang_on_words(error, kind, monkeypatch):
     monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, failing_with(error))
     if isinstance(error, SceneError):
         monkeypatch.setattr(contacts, "pose", failing_with(error))
     assert judge_contact(ORDINARY).refused_for is kind
 
 
-def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.MonkeyPatch) -> None:
-    def careless(posed: Posed) -> SolvedContact:
+def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch):
+    def careless(posed):
         return by_superposition(replace(posed, tolerance=1e-4))
 
     monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, careless)
     assert judge_contact(ORDINARY).verdict is Verdict.SILENT
 
 
-def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_giving_up_is_recorded_with_its_residual(monkeypatch):
     error = NotConverged("the shear", 60, 1e-3, 1e-8)
     monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, failing_with(error))
     record = judge_contact(ORDINARY)
@@ -93,7 +91,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
-def test_one_cell_in_a_hundred_may_give_up(share: int, outcome: Status) -> None:
+def test_one_cell_in_a_hundred_may_give_up(share, outcome):
     cells = [replace(ORDINARY, friction=0.001 * n) for n in range(100)]
     given_up = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
     found = dict.fromkeys(cells, GOOD) | dict.fromkeys(cells[:share], given_up)

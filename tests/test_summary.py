@@ -2,7 +2,6 @@
 
 import json
 import math
-from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
@@ -21,8 +20,8 @@ from contact_scene.quantities.summary import (
 )
 
 
-def step(**changes: Any) -> StepSummary:
-    values: dict[str, Any] = {
+def step(**changes):
+    values = {
         "normal_force": 1000.0,
         "approach": 2.6e-6,
         "contact_area": 1e-7,
@@ -57,7 +56,7 @@ FRETTING = step(
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, "x", None])
-def test_nothing_but_finite_numbers_gets_into_a_summary(bad: Any) -> None:
+def test_nothing_but_finite_numbers_gets_into_a_summary(bad):
     with pytest.raises(ValidationError):
         step(peak_pressure=bad)
     with pytest.raises(ValidationError):
@@ -66,7 +65,7 @@ def test_nothing_but_finite_numbers_gets_into_a_summary(bad: Any) -> None:
         Residuals(complementarity=bad, penetration=0.0, normal_equilibrium=0.0)
 
 
-def test_the_schema_admits_summaries_and_nothing_less() -> None:
+def test_the_schema_admits_summaries_and_nothing_less():
     validator = Draft202012Validator(summary_schema())
     record = json.loads(dump_summary(run(step(), FRETTING)))
     validator.validate(record)
@@ -78,7 +77,7 @@ def test_the_schema_admits_summaries_and_nothing_less() -> None:
 
 
 @pytest.mark.parametrize(("other", "age"), [(-1, "an earlier"), (1, "a newer")])
-def test_a_summary_of_another_version_is_refused(other: int, age: str) -> None:
+def test_a_summary_of_another_version_is_refused(other, age):
     record = json.loads(dump_summary(run()))
     record["schema_version"] = SUMMARY_VERSION + other
     told = f"^schema_version: version {SUMMARY_VERSION + other} is of {age} slipstick"

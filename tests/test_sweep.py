@@ -20,13 +20,11 @@ from slipstick.sweep_chart import MAX_LABEL, SweptQuantity, _draw_map, _label, r
         ((7.0, 7.0), [7]),
     ],
 )
-def test_ticks_of_a_logarithmic_axis_are_round_numbers(
-    ends: tuple[float, float], ticks: list[float]
-) -> None:
+def test_ticks_of_a_logarithmic_axis_are_round_numbers(ends, ticks):
     assert round_ticks(*ends) == ticks
 
 
-def test_a_map_has_ticks_at_its_values_and_labels_that_fit() -> None:
+def test_a_map_has_ticks_at_its_values_and_labels_that_fit():
     """A field of a map reaches half a step beyond its value, to thicknesses below zero."""
     keys = [
         Variation("body.layers[1].thickness", "mm", (0.1, 0.4, 0.7)),
@@ -44,7 +42,7 @@ def test_a_map_has_ticks_at_its_values_and_labels_that_fit() -> None:
 @pytest.mark.parametrize(
     ("errors", "title"), [((np.nan, 2e-6), "largest numerical error: 2 µm"), ((np.nan,) * 2, "")]
 )
-def test_a_map_states_errors_only_if_there_are_any(errors: tuple[float, float], title: str) -> None:
+def test_a_map_states_errors_only_if_there_are_any(errors, title):
     keys = [Variation("indenter.radius", "mm", ends) for ends in ((1.0, 2.0), (3.0,))]
     ax = Figure().add_subplot()
     values = np.full((2, 1, 1), 5e-6)

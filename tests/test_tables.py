@@ -1,13 +1,10 @@
 """Tests of `slipstick table`: comparison with other computations, provenance, and refusals."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
-from typing import Any
 
 import pytest
 from command import outcome
@@ -23,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_the_rows_of_a_table_are_in_order_and_within_its_bounds(name: str) -> None:
+def test_the_rows_of_a_table_are_in_order_and_within_its_bounds(name):
     for axis in TABLES[name].axes.values():
         values = axis.values
         assert axis.least < values[0]
@@ -31,7 +28,7 @@ def test_the_rows_of_a_table_are_in_order_and_within_its_bounds(name: str) -> No
         assert sorted({*values}) == [*values]
 
 
-def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
+def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes():
     """2 |3 - 3.5| + 0.01 * 3 + 0.1."""
     found = {1: RowValues((3.0,), 0.01, (0.1,)), 2: RowValues((3.5,))}
     table = Table("t", {"k": Axis("", (7.0,))}, {"q": ""}, "", "", lambda place, fine: found[fine])
@@ -50,9 +47,7 @@ OF_REFERENCE = {"a_over_aH": 2e-8, "delta_over_deltaH": 2e-8, "c_over_a": 1e-6}
 
 
 @pytest.mark.parametrize(("reference", "place"), FRICTIONAL)
-def test_pressing_with_friction_is_that_of_integral_equations(
-    reference: dict[str, Any], place: tuple[float, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_pressing_with_friction_is_that_of_integral_equations(reference, place, monkeypatch):
     """Contact, and tractions at the radii of the reference; an eighth of the increments suffices.
 
     place  E1/E2, h/a_H, ν and µ"""
@@ -70,7 +65,7 @@ def test_pressing_with_friction_is_that_of_integral_equations(
             assert abs(row[name] - reference[of][n]) <= row[f"{name}_uncertainty"] + 3e-6
 
 
-def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() -> None:
+def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others():
     text = (ROOT / "docs" / "theory" / "literature.md").read_text(encoding="utf-8")
     printed = re.findall(r"^\| ([\d.]+) \| (\d+\.\d{8}) \|", text, re.M)
     assert len(printed) == 5
@@ -82,9 +77,7 @@ def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() 
 ONE_PUNCH = {name: replace(axis, values=(0.5,)) for name, axis in TABLES["punch"].axes.items()}
 
 
-def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(tmp_path, monkeypatch):
     monkeypatch.setattr(deposit, "TABLES", {"punch": replace(TABLES["punch"], axes=ONE_PUNCH)})
     found = list(deposit.datasets())
     assert [one.about["table"] for one in found] == ["punch", "onset", "changing_loads"]

@@ -1,9 +1,7 @@
 """Tests of text tables: height maps, friction maps, measured tables and points read them alike."""
 
 import codecs
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -50,7 +48,7 @@ def points(path: Path) -> np.ndarray:
     return values / SIZES
 
 
-USES: dict[str, Callable[[Path], np.ndarray]] = {
+USES = {
     "height map": height_map,
     "friction map": friction_map,
     "against": measured,
@@ -61,7 +59,7 @@ USES: dict[str, Callable[[Path], np.ndarray]] = {
 def table(mark: str, *, end: str = "", comma: bool = False, quote: str = "", head: str = "") -> str:
     """The table as text: heads, then rows."""
 
-    def line(fields: Any) -> str:
+    def line(fields):
         return mark.join(f"{quote}{field}{quote}" for field in fields) + end + "\n"
 
     rows = [[str(value) for value in row] for row in VALUES.tolist()]
@@ -102,7 +100,7 @@ READ = {
 
 @pytest.mark.parametrize("use", USES)
 @pytest.mark.parametrize("kind", READ)
-def test_a_table_is_read_alike_for_every_use(use: str, kind: str, tmp_path: Path) -> None:
+def test_a_table_is_read_alike_for_every_use(use, kind, tmp_path):
     path = tmp_path / "table.csv"
     path.write_bytes(READ[kind])
     np.testing.assert_allclose(USES[use](path), VALUES, rtol=1e-14)
@@ -111,13 +109,13 @@ def test_a_table_is_read_alike_for_every_use(use: str, kind: str, tmp_path: Path
 PLAIN = table(",")
 
 
-def test_rows_without_numbers_below_a_single_row_are_left_out(tmp_path: Path) -> None:
+def test_rows_without_numbers_below_a_single_row_are_left_out(tmp_path):
     path = tmp_path / "table.csv"
     path.write_text("\n".join([*PLAIN.splitlines()[:2], ",,,,", ",,,,", ""]), encoding="utf-8")
     assert [len(column) for column in read_columns(path, POINTS).values()] == [1, 1, 1]
 
 
-def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
+def test_a_column_without_any_value_is_left_out(tmp_path):
     """A run without friction writes profiles with heads of shear and no shear."""
     path = tmp_path / "profiles.csv"
     path.write_text("x [m],shear [Pa],pressure [Pa]\n0.0,,2.0\n1.0,,1.0\n", encoding="utf-8")
@@ -129,7 +127,7 @@ def test_a_column_without_any_value_is_left_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("word", ["", "nan", "#N/A", "***"])
-def test_a_missing_value_is_filled_in_heights_alone(word: str, tmp_path: Path) -> None:
+def test_a_missing_value_is_filled_in_heights_alone(word, tmp_path):
     path = tmp_path / "table.csv"
     path.write_text(PLAIN.replace("0.125,", f"{word},"), encoding="utf-8")
     expected = VALUES.copy()

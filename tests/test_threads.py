@@ -16,7 +16,7 @@ QUICK = ("--figures", "none", "--no-error")
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     scene = re.sub(r"cells = .*", "cells = [64, 64]", SCENE)
     assert scene != SCENE
     (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
@@ -27,7 +27,7 @@ def folder(tmp_path: Path) -> Path:
     "solver",
     ["semi-analytical", *(pytest.param(s, marks=pytest.mark.slow) for s in ("radial", "fem"))],
 )
-def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver: str) -> None:
+def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder, solver):
     """Of a run that is read back: the libraries are loaded by the stress itself."""
     slipstick("run", folder / "scene.toml", "--solver", solver, "-o", folder / "run", *QUICK)
     found = []
@@ -41,7 +41,7 @@ def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver:
 
 
 @pytest.mark.slow
-def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
+def test_a_table_has_the_same_bytes_by_two_threads(folder):
     words = ("table", "ball", "--over", "E1_over_E2=0.5,2", "--over", "h_over_aH=0.1,1")
     one, two = (run(folder, *words, threads=threads).out for threads in (1, 2))
     assert one.count("\n") > 4
@@ -49,9 +49,7 @@ def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(("asked", "used"), [(None, "1"), ("3", "3")])
-def test_commands_use_one_thread_unless_told(
-    asked: str | None, used: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_commands_use_one_thread_unless_told(asked, used, monkeypatch):
     for name in VARIABLES:
         monkeypatch.delenv(name, raising=False)
         if asked is not None:

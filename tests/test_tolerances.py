@@ -1,9 +1,5 @@
 """Tests of stored tolerances: damaged files, and the numbers that they belong to."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 from report_examples import a_case, verdict
 
@@ -12,14 +8,14 @@ from verification.regression.baseline import BaselineRefused, read_baselines
 from verification.regression.tolerances import Tolerances, held_to, read_tolerances, text_of
 
 
-def test_a_damaged_file_of_tolerances_is_named(tmp_path: Path) -> None:
+def test_a_damaged_file_of_tolerances_is_named(tmp_path):
     (tmp_path / "quick.json").write_text("{")
     with pytest.raises(BaselineRefused, match=r"quick\.json is damaged: got no JSON"):
         read_tolerances("quick", tmp_path)
 
 
 @pytest.mark.parametrize("level", [level.name.lower() for level in Level])
-def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> None:
+def test_every_accepted_tolerance_belongs_to_a_recorded_number(level):
     """A number that gets another name loses its tolerance, unless that is accepted anew."""
     recorded = {
         (case, f"{quantity.name} [{quantity.key[1]}] {quantity.tolerance_kind}")
@@ -33,7 +29,7 @@ def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> No
     assert {(case, key) for case, keys in named for key in keys} <= recorded
 
 
-def test_no_tolerance_is_smaller_than_the_uncertainty_of_the_reference() -> None:
+def test_no_tolerance_is_smaller_than_the_uncertainty_of_the_reference():
     one = verdict("radius", 1.0, 1.0).model_copy(update={"reference_uncertainty": 6e-3})
     outcome = a_case("case").model_copy(update={"verdicts": (one,)})
     of_case = {"case": {text_of(one): {"allowed": 1e-4, "error": 1e-5}}}

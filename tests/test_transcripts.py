@@ -3,14 +3,12 @@
 A difference is a mistake, or is accepted with a reason: see `transcript.py`.
 """
 
-from pathlib import Path
-
 import pytest
 from transcript import differences, names, read, transcribe
 
 
 @pytest.mark.parametrize("name", names())
-def test_commands_print_and_write_what_was_accepted(name: str, tmp_path: Path) -> None:
+def test_commands_print_and_write_what_was_accepted(name, tmp_path):
     commands, accepted = read(name)
     assert commands
     assert differences(accepted, transcribe(commands, tmp_path)) == []

@@ -3,7 +3,6 @@
 import math
 import random
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -44,9 +43,7 @@ OF = {
 TO_AND_FRO = (1.0, -0.5)
 
 
-def pushed(
-    way: Any, pose: Any, angle: float, length: float, stress: float, parts: Any = TO_AND_FRO
-) -> Any:
+def pushed(way, pose, angle, length, stress, parts=TO_AND_FRO):
     """The end of a contact of revolution that is pushed along a line by parts of a force."""
     push, rigid, film = pose
     force = 1e3 * stress * length**2
@@ -79,7 +76,7 @@ def pushed(
 
 @pytest.mark.parametrize("way", ["radial", "semi-analytical", *Method])
 @pytest.mark.parametrize("seed", [0, *(pytest.param(n, marks=nightly) for n in range(1, 20))])
-def test_no_direction_and_no_unit_counts(way: Any, seed: int) -> None:
+def test_no_direction_and_no_unit_counts(way, seed):
     chance = random.Random(seed)
     # Iterations on turned cells take another path, and fits of edges magnify the difference.
     within = 1e-5 if way == "semi-analytical" else 1e-9
@@ -101,7 +98,7 @@ def test_no_direction_and_no_unit_counts(way: Any, seed: int) -> None:
 
 
 @pytest.mark.parametrize("way", ["radial", "semi-analytical", *Method])
-def test_nothing_sticks_at_the_friction_limit_of_the_softest_bodies(way: Any) -> None:
+def test_nothing_sticks_at_the_friction_limit_of_the_softest_bodies(way):
     """The peak pressure is 1 mPa."""
     end = pushed(way, (1.0, False, 0.0), 0.0, 1.0, 1e-12, (1.0,))
     assert end.stick_area == 0
@@ -110,7 +107,7 @@ def test_nothing_sticks_at_the_friction_limit_of_the_softest_bodies(way: Any) ->
 
 @pytest.mark.parametrize("way", ["radial", "semi-analytical", *Method])
 @pytest.mark.parametrize("rigid", [False, True])
-def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way: Any, rigid: bool) -> None:
+def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way, rigid):
     """Only a number with a unit in the program would: the soft contact has pressures below 1."""
     unit = 2.0**-40
     stiff, soft = (pushed(way, (0.5, rigid, 0.5), 0.0, 1.0, stress) for stress in (1.0, unit))
@@ -120,7 +117,7 @@ def test_a_power_of_two_as_unit_of_stress_changes_no_bit(way: Any, rigid: bool) 
         assert getattr(soft, name) == getattr(stiff, name) * unit**of_stress, name
 
 
-def test_a_largest_stress_of_elements_is_found_on_both_sides_of_the_load() -> None:
+def test_a_largest_stress_of_elements_is_found_on_both_sides_of_the_load():
     """Shear like 1 + sin θ, and its mirror image."""
     state = state_of_result(slipstick.solve(scene(PRESS), "fem"), None)
     pressure, radii = state.tractions["pressure"][:, None], state.axes["radii"][:, None] / A
@@ -139,7 +136,7 @@ def test_a_largest_stress_of_elements_is_found_on_both_sides_of_the_load() -> No
 
 
 @pytest.mark.parametrize("solver", ["radial", "fem"])
-def test_a_largest_stress_is_found_in_whatever_plane_it_lies(solver: Any) -> None:
+def test_a_largest_stress_is_found_in_whatever_plane_it_lies(solver):
     """Shear like cos 2θ, and the same turned by a right angle out of the plane of the load."""
     state = state_of_result(slipstick.solve(scene(PRESS), solver), None)
     pressure, radii = state.tractions["pressure"], state.axes["radii"][:, None] / A

@@ -14,7 +14,7 @@ from command import signalled, succeeded
 from contact_scene.solver_errors import NotConverged
 from verification.cases.catalogue import choose, lost
 from verification.cases.partial_slip import near_sliding
-from verification.judging.case import Case, Level
+from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.report.file_names import FILES, PAGE, RECORD
@@ -31,16 +31,16 @@ def failed(outcome: CaseOutcome) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def sliding() -> tuple[Case, dict[str, Any]]:
+def sliding():
     """A case and the results of its runs."""
     case = near_sliding(cells=64)
     return case, {run.label: run.solve() for run in case.runs}
 
 
-def test_residual_above_tolerance_fails(sliding: tuple[Case, dict[str, Any]]) -> None:
+def test_residual_above_tolerance_fails(sliding):
     case, solved = sliding
 
-    def solve(run: Any) -> Any:
+    def solve(run):
         loose = type(run)(run.label, run.scene, run.grid, 1e-4)
         return loose.solve() if run.label == "ν = 0.3, 0.99 µW" else solved[run.label]
 
@@ -50,11 +50,11 @@ def test_residual_above_tolerance_fails(sliding: tuple[Case, dict[str, Any]]) ->
 
 
 def test_solver_that_gives_up_fails_and_the_rest_is_still_judged(
-    sliding: tuple[Case, dict[str, Any]],
-) -> None:
+    sliding,
+):
     case, solved = sliding
 
-    def solve(run: Any) -> Any:
+    def solve(run):
         if run is case.runs[0]:
             raise NotConverged("the shear", 60, 1e-3, 1e-8)
         return solved[run.label]
@@ -97,14 +97,14 @@ def report(directory: Path) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def uninterrupted(tmp_path_factory):
     directory = tmp_path_factory.mktemp("verify") / "report"
     whole = succeeded("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
     assert re.search(r"\(1 of 3, about \d+ s left\)", whole.stderr)
     return directory
 
 
-def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_path: Path) -> None:
+def test_killed_verification_goes_on_where_it_stopped(uninterrupted, tmp_path):
     for name in FILES:  # an earlier report, which must not pass for that of the killed one
         shutil.copy(uninterrupted / name, tmp_path)
     subprocess.run(
@@ -127,7 +127,7 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert not (tmp_path / EARLIER).exists()
 
 
-def test_lost_case_is_a_failed_verdict() -> None:
+def test_lost_case_is_a_failed_verdict():
     (case,) = choose(Level.QUICK, ["hertz_approach_control"])
     outcome = lost(case, "its worker was killed")
     assert outcome.status is Status.FAIL

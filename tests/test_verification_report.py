@@ -3,9 +3,7 @@
 import json
 import os
 import re
-from collections.abc import Callable
 from html.parser import HTMLParser
-from pathlib import Path
 
 import jsonschema
 import pytest
@@ -18,7 +16,7 @@ from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
 from verification.report.files import write_report
 from verification.report.page import render_page, render_sheets
 from verification.running.provenance import provenance
-from verification.running.report_record import Report, load_report, report_schema
+from verification.running.report_record import load_report, report_schema
 
 VOID = {"meta", "br", "link", "img", "hr"}
 PAYLOADS = (
@@ -32,7 +30,7 @@ PAYLOADS = (
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
+def report():
     hertz = judge(hertz_point(cells=(16, 20, 24, 32)))
     report = report_of((hertz, judge(cattaneo_mindlin(cells=(24, 28, 32)))))
     made = provenance("slipstick verify --level quick", {"hertz_point": 0.1})
@@ -43,12 +41,12 @@ RENDERED = {PAGE: render_page, SHEETS: render_sheets}
 
 
 @pytest.fixture(scope="module")
-def pages(report: Report) -> dict[str, str]:
+def pages(report):
     return {name: render(report) for name, render in RENDERED.items()}
 
 
 @pytest.fixture(scope="module", params=RENDERED)
-def page(pages: dict[str, str], request: pytest.FixtureRequest) -> str:
+def page(pages, request):
     return pages[request.param]
 
 
@@ -57,8 +55,8 @@ class Outline(HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.open: list[str] = []
+        self.tags = []
+        self.open = []
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
@@ -73,7 +71,7 @@ class Outline(HTMLParser):
         assert self.open.pop() == tag
 
 
-def test_names_are_unique_and_links_lead_to_parts_of_the_report(pages: dict[str, str]) -> None:
+def test_names_are_unique_and_links_lead_to_parts_of_the_report(pages):
     """Within a page and to the other one: nothing is read from the network."""
     outlines = {name: Outline(text) for name, text in pages.items()}
     ids = {
@@ -96,7 +94,7 @@ def test_names_are_unique_and_links_lead_to_parts_of_the_report(pages: dict[str,
     assert across == {"", *RENDERED}
 
 
-def test_page_has_no_script(page: str) -> None:
+def test_page_has_no_script(page):
     outline = Outline(page)
     assert "script" not in {tag for tag, _ in outline.tags}
     for _, attributes in outline.tags:
@@ -105,9 +103,7 @@ def test_page_has_no_script(page: str) -> None:
     assert "@import" not in page
 
 
-def test_figures_have_names_and_take_the_colours_of_the_page(
-    pages: dict[str, str], report: Report
-) -> None:
+def test_figures_have_names_and_take_the_colours_of_the_page(pages, report):
     page = pages[SHEETS]
     figures = [attributes for tag, attributes in Outline(page).tags if tag == "svg"]
     drawn = sum(len(case.charts) for case in report.cases)
@@ -118,9 +114,7 @@ def test_figures_have_names_and_take_the_colours_of_the_page(
     assert "#0072b2" not in page[page.index("<body ") :].lower()
 
 
-def test_record_fulfils_its_schema_and_can_be_rendered_again(
-    report: Report, pages: dict[str, str], tmp_path: Path
-) -> None:
+def test_record_fulfils_its_schema_and_can_be_rendered_again(report, pages, tmp_path):
     write_report(report, tmp_path)
     assert sorted(os.listdir(tmp_path)) == sorted([PAGE, SHEETS, RECORD, JUNIT, SUMMARY])
     record = json.loads((tmp_path / RECORD).read_text(encoding="utf-8"))
@@ -132,12 +126,10 @@ def test_record_fulfils_its_schema_and_can_be_rendered_again(
 
 @pytest.mark.parametrize("render", RENDERED.values(), ids=RENDERED)
 @pytest.mark.parametrize("payload", PAYLOADS)
-def test_text_from_a_record_cannot_become_markup(
-    payload: str, render: Callable[[Report], str]
-) -> None:
+def test_text_from_a_record_cannot_become_markup(payload, render):
     """Pages have the same tags and attributes whatever the texts of their records are."""
 
-    def tags(text: str) -> list[tuple[str, list[str]]]:
+    def tags(text):
         one = case("one", {text: (1e-6, 1e-6)}, run_record(64, None), text)
         studies = (study("stability", text, "full", text),)
         found = Outline(render(report_of((one,), studies)))

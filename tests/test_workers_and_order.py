@@ -5,7 +5,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from operator import methodcaller
 from pathlib import Path
 from threading import Thread
@@ -37,7 +37,7 @@ def computed(directory: Path, cases: Sequence[StudyCase], workers: int) -> dict[
     return {path.name: path.read_bytes() for path in directory.iterdir()}
 
 
-def test_neither_the_number_of_workers_nor_the_order_changes_a_bit(tmp_path: Path) -> None:
+def test_neither_the_number_of_workers_nor_the_order_changes_a_bit(tmp_path):
     alone = computed(tmp_path / "alone", CASES, 1)
     together = computed(tmp_path / "together", CASES[::-1], 2)
     assert len(alone) == len(CASES)
@@ -60,7 +60,7 @@ if __name__ == "__main__":
 """
 
 
-def test_closed_workers_begin_no_further_case() -> None:
+def test_closed_workers_begin_no_further_case():
     pool = LocalWorkers(1)
     futures = [pool.submit(methodcaller("compute"), Square(float(n))) for n in range(5)]
     pool.close()
@@ -68,7 +68,7 @@ def test_closed_workers_begin_no_further_case() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
-def test_workers_ignore_interrupts_and_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+def test_workers_ignore_interrupts_and_end_with_a_parent_that_is_killed(tmp_path):
     told = tmp_path / "pid"
     parent = begun(tmp_path, str(told), str(tmp_path / "cases"), program=ENDLESS)
     until = time.monotonic() + PATIENCE
@@ -88,7 +88,7 @@ def test_workers_ignore_interrupts_and_end_with_a_parent_that_is_killed(tmp_path
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
+def address():
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
         n_workers=3, threads_per_worker=1, dashboard_address=None
@@ -96,7 +96,7 @@ def address() -> Iterator[str]:
         yield local.scheduler_address
 
 
-def test_cluster_is_not_the_default_of_other_programs(tmp_path: Path) -> None:
+def test_cluster_is_not_the_default_of_other_programs(tmp_path):
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
         n_workers=1, processes=False, protocol="tcp", dashboard_address=None
@@ -110,10 +110,10 @@ def test_cluster_is_not_the_default_of_other_programs(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
+def test_cluster_gives_the_records_and_names_what_is_lost(address, tmp_path):
     cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
     store = CaseStore(tmp_path, Number)
-    dead: list[str] = []
+    dead = []
     ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None, warn=dead.append)
     assert any(re.fullmatch(r"worker tcp://\S+ has died: its cases go to .*", one) for one in dead)
     values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
@@ -127,21 +127,19 @@ def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path
 
 
 @pytest.mark.slow
-def test_cluster_whose_workers_have_all_died_is_not_waited_for(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_cluster_whose_workers_have_all_died_is_not_waited_for(tmp_path, monkeypatch):
     """The dead worker is named while its case is open, and again as the reason of the loss."""
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr("verification.running.case_pool.SECONDS_WITHOUT_WORKER", 2)
     told = tmp_path / "pid"
     cases = (Square(1.0), Endless(str(told)), Square(2.0))
-    warned: list[str] = []
+    warned = []
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, dashboard_address=None
     ) as local:
         (worker,) = (one.worker_address for one in local.workers.values())
 
-        def end_the_worker() -> None:
+        def end_the_worker():
             while not (told.exists() and told.read_text(encoding="ascii")):
                 time.sleep(0.05)
             local.scale(0)

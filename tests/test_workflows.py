@@ -52,7 +52,7 @@ def run_pytest(folder: Path, sources: dict[str, str], no_skip: str) -> str:
     ).stdout
 
 
-def test_skip_fails_where_forbidden_and_an_expected_failure_is_none(tmp_path: Path) -> None:
+def test_skip_fails_where_forbidden_and_an_expected_failure_is_none(tmp_path):
     said = run_pytest(tmp_path, SKIPPED | EXPECTED_FAILURE, no_skip="1")
     for name in SKIPPED:
         assert re.search(rf"^(FAILED|ERROR) test_{name}\.py", said, re.MULTILINE), said
@@ -68,7 +68,6 @@ LONGEST_JOB = 360  # minutes, after which the service ends it without a word
 
 def studies_of_the_night() -> list[str]:
     matrix = re.search(r"^ +name:\n((?: +- .+\n)+)", NIGHTLY, re.MULTILINE)
-    assert matrix is not None
     return [line.strip().removeprefix("- ") for line in matrix[1].splitlines()]
 
 
@@ -84,7 +83,7 @@ def commands() -> Iterator[str]:
 
 
 @pytest.mark.parametrize("command", sorted(commands()))
-def test_commands_of_the_workflows_are_known(command: str) -> None:
+def test_commands_of_the_workflows_are_known(command):
     called = shlex.split(command)
     name, *words = called[called[0] == MAINTAIN :]
     known = ALL_COMMANDS[" ".join(called[: len(called) - len(words)])]
@@ -99,12 +98,12 @@ def without_shell(words: list[str]) -> list[str]:
     return ["2" if word == "$(nproc)" else word for word in words]
 
 
-def test_all_ways_to_the_program_are_looked_at() -> None:
+def test_all_ways_to_the_program_are_looked_at():
     called = {" ".join(command.split()[:2]).split(" --")[0] for command in commands()}
     assert called == {"verify", "maintain study", "maintain compare", "maintain records"}
 
 
-def test_every_job_ends_by_itself() -> None:
+def test_every_job_ends_by_itself():
     workflows = [*WORKFLOWS.glob("*.yml")]
     assert workflows
     for path in workflows:
@@ -114,7 +113,7 @@ def test_every_job_ends_by_itself() -> None:
         assert max(minutes) < LONGEST_JOB
 
 
-def test_actions_are_pinned_by_commit() -> None:
+def test_actions_are_pinned_by_commit():
     """A tag can be moved to other code; it stands beside for people."""
     texts = [path.read_text(encoding="utf-8") for path in (ROOT / ".github").rglob("*.yml")]
     actions = [used for text in texts for used in re.findall(r"uses: (.+)", text)]
@@ -123,10 +122,10 @@ def test_actions_are_pinned_by_commit() -> None:
     assert [used for used in actions if not pinned.fullmatch(used)] == []
 
 
-def test_every_study_of_the_report_is_computed_at_night() -> None:
+def test_every_study_of_the_report_is_computed_at_night():
     alone = [study for study in studies_of_the_night() if " " not in study]
     assert alone == sorted(TITLES.keys() & STUDIES.keys())
 
 
-def test_studies_that_the_report_shows_are_in_the_catalogue() -> None:
+def test_studies_that_the_report_shows_are_in_the_catalogue():
     assert TITLES.keys() <= STUDIES.keys()

@@ -8,8 +8,6 @@ samples: an exchange of axes, rows, signs or units changes the weighted sum.
     python tests/transcript.py --because REASON [NAME...]    accepts new transcripts
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import json
@@ -27,7 +25,6 @@ from itertools import count, zip_longest
 from pathlib import Path
 from runpy import run_path
 from tempfile import TemporaryDirectory
-from typing import Any
 from unittest.mock import patch
 from zlib import crc32
 
@@ -42,7 +39,7 @@ from verification.running.case_pool import ThisProcess
 FOLDER = Path(__file__).with_name("transcripts")
 INPUTS = (".toml", ".csv", ".py")
 LEFT_OUT = (".pyc", ".npy")  # files that are not text and that no command writes
-FORK: Any = multiprocessing.get_context("fork")
+FORK = multiprocessing.get_context("fork")
 SHOWN = 12  # values of a column that are shown one by one; of a longer one, as many samples
 # Allowed difference, relative to a number and to the largest number of its line.
 RELATIVE = 1e-5
@@ -136,7 +133,7 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
             main(arguments) if program == "slipstick" else run_path(
                 arguments[0], run_name="__main__"
             )
-            code: object = 0
+            code = 0
         except SystemExit as end:
             code = end.code or 0
     yield f"exit code: {code}"
@@ -151,7 +148,7 @@ class _Stopped:
     monotonic = staticmethod(lambda: 0.0)
 
 
-def _write_figure(figure: Any, path: Path, dots: int = 0) -> None:
+def _write_figure(figure, path, dots=0):
     """Write what a figure shows instead of its pixels."""
     path.write_text("\n".join(figure_lines(figure, array_text)), encoding="utf-8")
 
@@ -216,7 +213,7 @@ def values_text(values: Iterable[object]) -> str:
     return "; ".join(parts)
 
 
-def array_text(array: Any) -> str:
+def array_text(array):
     """Show size, sums and samples of an array."""
     flat = np.asarray(array).ravel().astype(float)
     finite = np.where(np.isfinite(flat), flat, 0.0)
@@ -228,7 +225,7 @@ def array_text(array: Any) -> str:
     return f"{missing}largest, sum, weighted, samples: {' '.join(map(_text, sums))}"
 
 
-def _text(value: object) -> str:
+def _text(value):
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, float):
@@ -236,13 +233,13 @@ def _text(value: object) -> str:
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False, default=str)
 
 
-def record_lines(record: object) -> Iterator[str]:
+def record_lines(record):
     """Yield one line per key of a JSON record, with the values of all elements of its lists.
 
     An error and its parts share a line."""
-    columns: dict[str, list[object]] = {}
+    columns = {}
 
-    def collect(key: str, value: object) -> None:
+    def collect(key, value):
         if isinstance(value, Mapping):
             for name, part in value.items():
                 collect(f"{key}.{name}" if key else name, part)
@@ -253,7 +250,7 @@ def record_lines(record: object) -> Iterator[str]:
             columns.setdefault(key, []).append(value)
 
     collect("", record)
-    groups: dict[str, list[str]] = {}
+    groups = {}
     for key, values in columns.items():
         group, _, part = re.sub(r"(\.errors?\.\w+|residuals)\.", r"\1:", key).partition(":")
         if not VARIABLE_KEY.search(key):
@@ -271,14 +268,14 @@ def table_lines(text: str) -> Iterator[str]:
         yield f"{head}: {values_text(map(_number_or_text, column))}"
 
 
-def _number_or_text(text: str) -> object:
+def _number_or_text(text):
     try:
         return float(text)
     except ValueError:
         return text
 
 
-def group_lines(file: Any) -> Iterator[str]:
+def group_lines(file):
     """Yield one line per dataset and attribute of an HDF5 file."""
     yield from (f"{file.name} @{name}: {_numbers_text(v)}" for name, v in file.attrs.items())
     for item in file.values():
@@ -296,7 +293,7 @@ def group_lines(file: Any) -> Iterator[str]:
             yield head + values_text(np.ravel(value).astype(str).tolist())
 
 
-def _numbers_text(array: Any) -> str:
+def _numbers_text(array):
     return array_text(array) if np.size(array) > SHOWN else values_text(np.ravel(array).tolist())
 
 
@@ -339,7 +336,7 @@ def page_lines(text: str) -> Iterator[str]:
 
 def differences(accepted: list[str], found: list[str], shown: int = 6) -> list[str]:
     """Return the first lines that differ, below the command and the file that they belong to."""
-    report: list[str] = []
+    report = []
     words = [[_words(line) for line in lines] for lines in (accepted, found)]
     for _, a, b, c, d in SequenceMatcher(None, *words, autojunk=False).get_opcodes():
         for k in range(max(b - a, d - c)):

@@ -5,18 +5,16 @@ a documented exit code, without a traceback, an internal error or a RuntimeWarni
 solve a scene must give it the same outcome: solved, gross slip at the limit, or refused above it.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import signal
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -46,7 +44,7 @@ COARSE = (
 ABOVE_LIMIT = "exceeds the friction limit"
 UNWANTED = re.compile(r"Traceback|RuntimeWarning|\bnan\b")
 # Ends and middle of the axes of the stability map, and forces at the friction limit.
-AXES: dict[str, Sequence[Any]] = {
+AXES = {
     "friction": (0.0, 1e-6, 0.1, 0.3, 1.0, 5.0),
     "push": (0.0, 0.3, 0.9, 0.99, 0.99999, 1 - 1e-10, 1 - 2**-52, 1.0, 1.0, 1 + 2**-52, 1.001),
     "modulus_ratio": (1e-3, 0.05, 1.0, 2.0, 20.0, 1e3),
@@ -93,7 +91,7 @@ class _Stopped(BaseException):
     """End of a command after its longest time; no handler of errors catches it."""
 
 
-def _stop(*_: object) -> None:
+def _stop(*_):
     raise _Stopped
 
 
@@ -112,7 +110,7 @@ def draw_cell(rng: np.random.Generator) -> StabilityCell:
 def write_scene(scene: Scene, file: Path) -> None:
     """Write a scene file and the files of its arrays."""
 
-    def document(value: Any, name: str = "") -> Any:
+    def document(value, name=""):
         if isinstance(value, BaseModel):
             return {key: document(part, key) for key, part in value if part is not None}
         if isinstance(value, ArrayFile):
