@@ -1,8 +1,5 @@
 """Example records of verification reports for tests of pages, without a solve."""
 
-from contact_scene import (
-    IsotropicMaterial,
-)
 from contact_scene.quantities.summary import EffectSummary
 from verification.exhibits.chart import Chart, Look, Panel, Table, curve
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
@@ -10,8 +7,6 @@ from verification.report.summary_text import OMISSIONS
 from verification.running.provenance import Provenance, source_digest
 from verification.running.report_record import Report, count
 from verification.running.study import Conclusion, LostCase, Statement, StudyRecord
-
-STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 
 
 def made_by() -> Provenance:

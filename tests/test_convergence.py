@@ -3,11 +3,9 @@
 from functools import partial
 from math import hypot, log, pi, sqrt, tan
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from verification.convergence.observed_order import (
     ObservedOrder,
@@ -24,7 +22,6 @@ from verification.judging.judgement import judge_quantity
 from verification.judging.outcome import failure_text, uncertainty_text
 from verification.problems.problem import Reference, ReferenceKind
 
-Array = NDArray[Any]
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)
 EXACT = 1.0

@@ -13,8 +13,6 @@ from fem_reference.contact.increment import touching_share as share_of_rings
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.increments.tangential_state import touching_share
 
-TOLERANCE = 1e-8
-
 
 def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():
     """Its own displacement vanishes by symmetry: what its pressure does around it tells a scale."""

@@ -4,7 +4,6 @@ The method knows no zones, multipliers or preconditioners. At the rigid motions 
 computes the tractions anew, which are unique; the forces of the solution are checked by their sums.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -28,8 +27,6 @@ from radial.tangential import ring_friction
 from semi_analytical import solve
 from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import normal_solve, tangential_solve
-
-Law = Callable[[Any, float], Any]
 
 
 def disc(z, limit):

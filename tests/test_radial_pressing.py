@@ -40,10 +40,8 @@ RADIUS = 18e-3
 BALL = Paraboloid(radius=RADIUS, material=RIGID)
 
 
-def pressed(indenter, body=None, **step):
-    loading = (LoadStep(**(step or {"normal_force": FORCE})),)
-    scene = Scene(indenter=indenter, body=body or Body(material=STEEL), loading=loading)
-    return radial.solve(scene).steps[-1]
+def scene_of(indenter, body, force):
+    return Scene(indenter=indenter, body=body, loading=(LoadStep(normal_force=force),))
 
 
 def coated(modulus, thickness, ratio=0.3, base=None):
@@ -83,7 +81,7 @@ def test_any_smooth_profile_is_pressed_as_sneddon_says(power):
 def test_the_surface_touches_where_there_is_pressure(modulus, thickness):
     """The displacement just outside meets the indenter, by another integral than the equation's;
     the gap opens from there as a power of three halves."""
-    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness)))
+    bodies = Bodies.of(scene_of(BALL, coated(modulus, thickness), 1.0))
     made = disc(bodies, BALL, 1.0)
     x = 1 + np.array([1e-6, 1e-4])
     gap = x**2 / (2 * RADIUS) + displacement(made, x) - made.approach
@@ -99,7 +97,9 @@ def test_the_surface_touches_where_there_is_pressure(modulus, thickness):
 def test_what_is_stored_is_the_work_of_the_load(indenter, body):
     """dU = W dδ, by differences of neighbouring loads."""
     force, step = FORCE if body.layers == () else 1e-6, 1e-3
-    less, more = (pressed(indenter, body, normal_force=f * force) for f in (1 - step, 1 + step))
+    less, more = (
+        radial.solve(scene_of(indenter, body, f * force)).steps[-1] for f in (1 - step, 1 + step)
+    )
     stored = more.elastic_energy - less.elastic_energy
     assert_allclose(stored, force * (more.approach - less.approach), rtol=step**2)
 
@@ -151,7 +151,3 @@ def test_pressing_with_friction_takes_two_fifths_of_force_times_approach():
     )
     (end,) = radial.solve(contact).steps
     assert_allclose(end.input_work, 0.4 * FORCE * end.approach, rtol=2e-5)
-
-
-def _scene(indenter, body, **step):
-    return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
