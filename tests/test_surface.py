@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contact_results.surface import Cells, Rings, Surface
+from contact_results.surface import Cells, Rings, Surface, surface_on
 from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
@@ -100,3 +100,10 @@ def test_weights_integrate_over_the_surface() -> None:
             both.append(integrals(surface, on_rings(surface, *parts)))
         both.append(integrals(rings(radii, None), on_rings(rings(radii, None), "along_load")))
         assert np.max(np.abs(np.array(both) - exact) / allowed) <= 1
+
+
+@pytest.mark.parametrize(("rows", "area"), [(1, 0.5), (8, 0.125)])
+def test_cells_at_stored_coordinates_have_their_area(rows: int, area: float) -> None:
+    """A line contact has one row of cells, whose weight is their width."""
+    made = surface_on({"x": 0.5 * np.arange(12), "y": 0.25 * np.arange(rows)}, ALONG_X)
+    np.testing.assert_allclose(made.weights, area)
