@@ -150,6 +150,7 @@ def test_parts_that_cannot_be_computed_are_named_and_the_rest_is_written(scene, 
 
 def test_a_saved_result_names_what_could_not_be_computed(tmp_path, monkeypatch):
     monkeypatch.setattr(PARTS["the page"], lambda *_: 1 / 0)
-    with pytest.warns(UserWarning, match="the page could not be computed"):
+    with pytest.warns(UserWarning, match="the page could not be computed") as given:
         save(small_result(), tmp_path / "out")
+    assert given[0].filename == __file__  # the line of the caller
     assert load(tmp_path / "out").summary.warnings[-1].startswith("the page could not")

@@ -6,6 +6,7 @@ import pytest
 
 from contact_results.directory.atomic_file import Refused
 from verification.judging.outcome import ChangeKind
+from verification.regression import cpu_time
 from verification.regression.baseline import recorded_by
 from verification.regression.cpu_time import CpuTimes, cpu_seconds, cpu_time_changes
 from verification.running.provenance import provenance
@@ -41,6 +42,12 @@ def test_the_processor_has_the_name_that_the_system_gives_it():
     lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     names = {line.split(": ")[-1] for line in lines if line.startswith("model name")}
     assert KNOWN.processor in names or not names
+
+
+def test_a_command_is_compared_with_the_mean_of_the_loops_around_it(monkeypatch):
+    seconds = iter([1.0, 6.0, 3.0])
+    monkeypatch.setattr(cpu_time, "cpu_seconds", lambda _: next(seconds))
+    assert cpu_time.ratio_to_loop(("plan",)) == 3.0
 
 
 def test_a_command_without_a_stored_time_is_refused():

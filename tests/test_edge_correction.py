@@ -28,6 +28,7 @@ from contact_scene import (
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.kernels import PARTS
+from semi_analytical.edge_correction.pressure import left_over
 from semi_analytical.operator.domain import ReducedDomain
 from verification.closed_forms.hertz import PointContact
 
@@ -190,3 +191,10 @@ def test_variations_within_cells_are_mirrored_with_their_cells(mirrors):
         image = np.flip(expected, (axis, axis + 2))
         expected = np.concatenate([image, expected], axis=axis)
     np.testing.assert_array_equal(placed(half.extend_to_window(domain)), expected)
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.5, 0.8])
+def test_what_is_left_over_is_the_rest_of_a_geometric_series(ratio: float) -> None:
+    changes = [7.0, *(3.0 * ratio ** np.arange(5))]
+    rest = sum(3.0 * ratio ** np.arange(5, 400))
+    assert changes[-1] * left_over(changes) == pytest.approx(rest)

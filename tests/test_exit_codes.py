@@ -23,6 +23,7 @@ from contact_scene.solver_errors import (
 )
 from fem_reference.mesh.gmsh_mesh import GmshMissing
 from semi_analytical.discretised import CellSolver
+from slipstick.cli.terminal import print_message
 
 SCENE = f"""
 title = "Ball on a flat"
@@ -108,3 +109,16 @@ def test_an_environment_variable_shows_where_an_error_happened(scene, solver, ca
     solver(ZeroDivisionError("a defect"))
     assert slipstick("run", scene, "--output", scene.parent / "out") == 70
     assert "Traceback" in capsys.readouterr().err
+
+
+def test_points_and_depths_are_refused_before_the_solve(scene: Path, solver: Any) -> None:
+    solver(NotConverged("pressure", 100, 1e-3, 1e-8))
+    for place in (("--depths", "-1 um"), ("--at", "0,0,-1 um")):
+        assert slipstick("stress", scene, *place, "--output", scene.parent / "out") == 2
+
+
+def test_a_message_shows_control_characters_by_their_codes(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    print_message("µ\x1b[2J\n")
+    assert capsys.readouterr().err == "µ\\x1b[2J\\n\n"

@@ -17,6 +17,7 @@ import contact_scene
 from contact_scene import (
     RIGID,
     Cone,
+    Cylinder,
     HeightMap,
     LineProfile,
     Paraboloid,
@@ -35,6 +36,7 @@ from fem_reference import solve as solve_by_elements
 from semi_analytical import solve_discretised
 from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.line_contact import CylinderContact
 
 R = 0.018
 
@@ -247,12 +249,16 @@ def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle):
     [
         (Paraboloid(material=RIGID, radius=R), PointContact.under_load(800.0, R, 2e9)),
         (Cone(material=RIGID, slope_angle=0.3), ConeContact.under_load(800.0, 0.3, 2e9)),
+        (
+            Cylinder(material=RIGID, radius=R, reference_length=1.0),
+            CylinderContact(800.0, R, 2e9, 1.0),
+        ),
     ],
 )
 def test_a_contact_is_as_large_as_in_closed_form(shape, exact):
     a, k = exact.contact_radius, shape.gap_exponent
     assert shape.contact_at(exact.approach)[0] == pytest.approx(a**k, rel=1e-12)
-    assert shape.contact_under(800.0, 2e9)[0] == pytest.approx(a ** (k + 1), rel=1e-12)
+    assert shape.contact_under(800.0, 2e9)[0] == pytest.approx(a**shape.load_exponent, rel=1e-12)
 
 
 @given(ALL, st.floats(1e-9, 1.0), st.floats(1e3, 1e12))

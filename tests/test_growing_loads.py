@@ -22,6 +22,7 @@ from contact_scene import (
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
+from contact_scene.stepping.growing_contact import grows_without_slip
 
 # The discretisation, and its error of the shift over that of gross slip.
 SOLVERS = {
@@ -65,3 +66,12 @@ def test_one_increment_of_a_coated_contact_that_grows_is_near_four(solver):
         result = slipstick.solve(bare.model_copy(update=bodies), solver, SOLVERS[solver][0])
         shifts.append(result.increments[-1].tangential_shift[0])
     assert shifts[0] == pytest.approx(shifts[1], rel=0.01)
+
+
+@pytest.mark.parametrize("part", [0.99, 1.01])
+def test_displacements_grow_without_slip_below_the_friction_of_their_forces(part):
+    """One increment is exact there: below the shift of the force µW at the same approach."""
+    shift = part * SOFTER * MU * APPROACH
+    grown = scene({"approach": APPROACH, "tangential_shift": (shift, 0.0)})
+    (ramp,) = grown.load_path()
+    assert grows_without_slip(grown, ramp) is (part < 1)

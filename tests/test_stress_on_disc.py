@@ -370,3 +370,10 @@ def test_cells_have_the_largest_stresses_of_the_radial_solver(body, upper):
         assert not one.at_window_edge
         allowed = 0.005 if one.depth else 0.03
         assert_allclose(one.value, rings[key].value, rtol=allowed, err_msg=str(key))
+
+
+@pytest.mark.parametrize("depth", [-1e-3, np.inf, np.nan])
+def test_a_depth_outside_the_body_is_refused(depth: float) -> None:
+    state = state_of_result(radial.solve(scene_of(BARE)), None)
+    with pytest.raises(ValueError, match="got a depth of"):
+        OnDisc(state, False).stress([0.5, depth])

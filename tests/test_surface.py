@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from contact_results.surface import Cells, Rings
+from contact_results.surface import Cells, Rings, surface_on
 from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
@@ -53,3 +53,10 @@ def test_weights_integrate_over_the_surface():
         ]
         found = [integrals(cells, on_cells(cells)), *(integrals(x, on_rings(x)) for x in rings)]
         assert np.max(np.abs(np.array(found) - exact) / exact) <= 4 / fineness**2
+
+
+def test_cells_at_stored_coordinates_have_their_area():
+    """A line contact has one row of cells, whose weight is their width."""
+    for rows, area in ((1, 0.5), (8, 0.125)):
+        made = surface_on({"x": 0.5 * np.arange(12), "y": 0.25 * np.arange(rows)}, (1.0, 0.0))
+        np.testing.assert_allclose(made.weights, area)

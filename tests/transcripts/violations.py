@@ -1,14 +1,17 @@
-"""Print all numbers of the laws of contact, friction and energy for wrong results of each solver.
+"""Print all numbers of the laws of contact, friction and energy for wrong results of each solver,
+and the features of the right ones.
 
 In a wrong result each number and each field of the last increment is off by a different amount, a
 field by one that varies from point to point: by a factor alone, or without contact as well.
 """
 
+import json
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import asdict, fields, replace
 
 import numpy as np
 
+from contact_results.solvers import solver_of
 from contact_scene import read_scene_file
 from slipstick import solve
 from verification.observed.cells import states_on_cells
@@ -47,6 +50,9 @@ def show(name: str, numbers: Sequence[float]) -> None:
 for solver, states_of, names in RESULTS:
     for name in names.split():
         result = solve(read_scene_file(f"{name}.toml"), solver)
+        for step in solver_of(result).features(result):
+            # `left` is a ratio of residuals, which differ between processors.
+            print(name, solver, json.dumps(asdict(replace(step, left={})), default=float))
         *early, last = result.increments
         held = [one.name for one in fields(last) if one.init]
         for by_factor in (True, False):
