@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 from zlib import crc32
 
 import numpy as np
@@ -16,12 +16,13 @@ from contact_scene.quantities.increment import SCALARS
 from contact_scene.solver_errors import SolverError
 from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import (
+    AnyRun,
     Case,
     Derived,
     Level,
     Quantity,
-    compare_runs,
 )
+from verification.judging.declared_case import compared
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status, Verdict
 from verification.problems.problem import ReferenceKind
@@ -31,12 +32,13 @@ from verification.regression.baseline import Key, key_of
 def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off() -> None:
     """Relative to the reference: 3 instead of 2 is off by half, which is twice the uncertainty."""
     results: dict[str, Any] = {"judged": 2.1, "reference": 2.0, "coarse": 3.0}
-    row = compare_runs(
-        *("name", "meaning", ("judged", "reference")),
+    one, other = (cast("AnyRun", SimpleNamespace(label=label)) for label in ("judged", "reference"))
+    (row,) = compared(
+        *("name", "meaning", one, other),
         lambda one, other: abs(one - other) / other,
         *(0.1, "why", "source", ReferenceKind.OTHER_SOLVER),
         coarse="coarse",
-    )
+    ).quantities
     case: Any = SimpleNamespace()
     assert with_uncertainty(row, case, results).reference.uncertainty == 0.25
 

@@ -33,6 +33,7 @@ from verification.observed.ring_points import (
     angle_weights,
     displacement_per_motion,
     gap_difference,
+    sum_over_hats,
 )
 
 # Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
@@ -184,5 +185,4 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
     nodes, shares = GAUSS
     v, length = (1 + nodes) / 2, np.diff(r)[:, None]
     at = r[:-1, None] + length * v
-    part = np.pi * function(at) * at * length * shares
-    return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
+    return sum_over_hats(np.pi * function(at) * at * length * shares, v)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from contact_scene.array_types import Field
+from verification.norms import max_norm
 from verification.observed.contact_state import Balance, ContactState
 
 ABSENT = 1e-9  # below this mean square a wave is zero at all angles, up to round-off
@@ -152,11 +153,22 @@ def gap_difference(pressure: Field, gap: Field, stated: Field, depth: float) -> 
 
     In contact the stated gap has to be zero.
     """
-    return float(np.max(np.abs(np.where(pressure > 0, 0.0, gap) - stated)) / depth)
+    return max_norm(np.where(pressure > 0, 0.0, gap) - stated) / depth
 
 
 def _strain(increment: Any) -> float:
     return 0.0 if increment.bulk_strain is None else float(increment.bulk_strain[0])
+
+
+def sum_over_hats(parts: Field, share: Field) -> Field:
+    """Sum integrals over intervals between rings with the hat function of each ring (…, rings).
+
+    parts  values times weights at the integration points (…, intervals, points)
+    share  places of the points in an interval, from 0 at the inner to 1 at the outer ring
+    """
+    inner, outer = parts @ (1 - share), parts @ share
+    ends = np.zeros((*inner.shape[:-1], 1))
+    return np.append(inner, ends, -1) + np.append(ends, outer, -1)
 
 
 def displacement_by_harmonics(
