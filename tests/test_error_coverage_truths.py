@@ -57,9 +57,8 @@ def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
         else:
             found = truth.read(steps)
         if found is not None:
-            reference = truth.reference
-            beyond = abs(found - reference.value) - reference.uncertainty
-            yield max(beyond, 0.0) / abs(reference.value)
+            beyond = abs(found - truth.value) - truth.uncertainty
+            yield max(beyond, 0.0) / abs(truth.value)
 
 
 @pytest.mark.parametrize(
@@ -84,7 +83,7 @@ def test_pressing_and_last_load_of_a_drawn_scene_are_known(family: str) -> None:
 
 def test_a_ball_that_slides_carries_the_friction_limit() -> None:
     known = drawn("sliding", SEED, 0)
-    values = {(truth.step, truth.quantity): truth.reference.value for truth in known.truths}
+    values = {(truth.step, truth.quantity): truth.value for truth in known.truths}
     pressing, sliding = known.scene.loading
     assert pressing.normal_force is not None
     assert known.scene.friction is not None
@@ -117,7 +116,7 @@ def test_a_turned_force_turns_the_answer() -> None:
     assert [np.hypot(*force) for force in forces] == pytest.approx(np.abs(posed.forces))
     for truth, straight in zip(turned.truths, along_x.truths, strict=True):
         part = cosine if truth.quantity == "tangential_shift" else 1.0
-        assert truth.reference.value == pytest.approx(part * straight.reference.value)
+        assert truth.value == pytest.approx(part * straight.value)
 
 
 def similar_balls() -> Similar:
@@ -146,7 +145,7 @@ def test_finer_cells_and_more_increments_agree_with_closed_forms() -> None:
     posed = FAMILIES["pushed"].posed(np.random.default_rng(SEED))
     by_forces = similar_under_forces(posed)
     closed, found = (
-        {(truth.step, truth.quantity): truth.reference for truth in known.truths}
+        {(truth.step, truth.quantity): truth for truth in known.truths}
         for known in (by_forces, refined(np.random.default_rng(SEED), posed))
     )
     both = closed.keys() & found.keys()
