@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
@@ -22,10 +21,7 @@ from slipstick.sweep import Variation
 
 PERCENTILES = (5.0, 50.0, 95.0)
 MAX_KEYS = 2
-MAX_TICKS = 8
-LEAST_TICKS = 2
 MAX_LABEL = 30  # characters in a line beside a panel
-FEW_DECADES = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +130,9 @@ def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Varia
         largest = np.nanmax(widths) / 2
         ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}".rstrip())
     for key, axis in ((across, ax.xaxis), (upward, ax.yaxis)):
-        if len(key.values) <= MAX_TICKS:  # the fields reach beyond the values, which the ticks mark
+        if (
+            len(key.values) <= style.MAX_TICKS
+        ):  # the fields reach beyond the values, which the ticks mark
             axis.set_ticks(key.values)
 
 
@@ -150,25 +148,6 @@ def _label(ax: Any, key: Variation, axis: str) -> None:
     ax.set(**{f"{axis}label": label})
     if key.is_log:
         ax.set(**{f"{axis}scale": "log"})
-        shown = round_ticks(min(key.values), max(key.values))
+        shown = style.round_ticks(min(key.values), max(key.values))
         ax.set(**{f"{axis}ticks": shown, f"{axis}ticklabels": [f"{tick:g}" for tick in shown]})
         getattr(ax, f"{axis}axis").set_minor_locator(NullLocator())
-
-
-def round_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers in a range, for the ticks of a logarithmic axis.
-
-    They are powers of ten; below `FEW_DECADES` also 2 and 5 times these; where fewer than two of
-    them are in the range, multiples of a round step. A range of one number has this tick.
-
-    low, high  ends of the range, both positive
-    """
-    decades = range(floor(log10(low)), ceil(log10(high)) + 1)
-    parts = (1, 2, 5) if high < low * 10**FEW_DECADES else (1,)
-    # As text a number has no round-off: 2e-05 and not 2.0000000000000002e-05.
-    ticks = [float(f"{part}e{decade}") for decade in decades for part in parts]
-    within = [tick for tick in ticks if low <= tick <= high]
-    if len(within) < LEAST_TICKS:
-        steps = MaxNLocator(MAX_TICKS, steps=(1, 2, 5, 10)).tick_values(low, high)
-        within = [float(tick) for tick in steps if low < tick < high] or [low]
-    return within[:: ceil(len(within) / MAX_TICKS)]

@@ -20,8 +20,8 @@ from verification.judging.case import (
     Derived,
     Level,
     Quantity,
-    compare_runs,
 )
+from verification.judging.declared_case import compared
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status
 from verification.problems.problem import ReferenceKind
@@ -31,12 +31,13 @@ from verification.regression.baseline import Key, key_of
 def test_a_numerical_reference_is_as_uncertain_as_its_coarse_solve_is_off():
     """Relative to the reference: 3 instead of 2 is off by half, which is twice the uncertainty."""
     results = {"judged": 2.1, "reference": 2.0, "coarse": 3.0}
-    row = compare_runs(
-        *("name", "meaning", ("judged", "reference")),
+    one, other = (SimpleNamespace(label=label) for label in ("judged", "reference"))
+    (row,) = compared(
+        *("name", "meaning", one, other),
         lambda one, other: abs(one - other) / other,
         *(0.1, "why", "source", ReferenceKind.OTHER_SOLVER),
         coarse="coarse",
-    )
+    ).quantities
     case = SimpleNamespace()
     assert with_uncertainty(row, case, results).reference.uncertainty == 0.25
 

@@ -194,7 +194,7 @@ def test_variations_within_cells_are_mirrored_with_their_cells(mirrors):
 
 
 @pytest.mark.parametrize("ratio", [0.2, 0.5, 0.8])
-def test_what_is_left_over_is_the_rest_of_a_geometric_series(ratio: float) -> None:
+def test_what_is_left_over_is_the_rest_of_a_geometric_series(ratio):
     changes = [7.0, *(3.0 * ratio ** np.arange(5))]
     rest = sum(3.0 * ratio ** np.arange(5, 400))
     assert changes[-1] * left_over(changes) == pytest.approx(rest)

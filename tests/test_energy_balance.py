@@ -22,6 +22,7 @@ from contact_scene import (
     Body,
 )
 from semi_analytical import NotConverged, history, solve
+from semi_analytical.increments.energy import Energy
 from semi_analytical.increments.increment import solve_increment
 
 TOLERANCE = 1e-8
@@ -95,6 +96,12 @@ def test_what_increments_leave_open_vanishes_with_their_square(work):
     coarse, fine = work(4), work(12)
     order = np.log(coarse / fine) / np.log(3)
     assert order == pytest.approx(2.0, abs=0.2)
+
+
+def test_what_is_missing_is_relative_to_the_largest_energy():
+    now = Energy(elastic=1.0, input_work=2.5, dissipated=0.5, unresolved=0.25, largest=3.0)
+    assert now.imbalance(Energy()) == pytest.approx(0.25)
+    assert now.imbalance(now) == 0
 
 
 def test_an_increment_in_two_halves_adds_up_both(monkeypatch):

@@ -11,7 +11,6 @@ from contact_scene.quantities.stated_error import (
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import APPROACH, Truth
-from verification.problems.problem import Reference, ReferenceKind
 from verification.running.study import CaseRecord, Row, Settings
 from verification.studies.error_coverage import (
     ASKED,
@@ -34,7 +33,7 @@ def row(
     uncertain: float = 1e-9,
 ) -> Row:
     """Judge an approach of 2 by its relative errors."""
-    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 2 * uncertain))
+    truth = Truth(1, APPROACH, 2.0, 2 * uncertain)
     error = StatedError(error=2 * stated, parts={"cells": 2 * stated}, status=status)
     return coverage_row(truth, 2.0 * (1 + wrong), error)
 

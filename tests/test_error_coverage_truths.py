@@ -53,9 +53,8 @@ def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
         else:
             found = truth.read(steps)
         if found is not None:
-            reference = truth.reference
-            beyond = abs(found - reference.value) - reference.uncertainty
-            yield max(beyond, 0.0) / abs(reference.value)
+            beyond = abs(found - truth.value) - truth.uncertainty
+            yield max(beyond, 0.0) / abs(truth.value)
 
 
 @pytest.mark.parametrize(
@@ -101,7 +100,7 @@ def test_finer_cells_and_more_increments_agree_with_closed_forms():
     posed = FAMILIES["pushed"].posed(np.random.default_rng(SEED))
     by_forces = similar_under_forces(posed)
     closed, found = (
-        {(truth.step, truth.quantity): truth.reference for truth in known.truths}
+        {(truth.step, truth.quantity): truth for truth in known.truths}
         for known in (by_forces, refined(np.random.default_rng(SEED), posed))
     )
     both = closed.keys() & found.keys()

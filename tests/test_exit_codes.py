@@ -111,14 +111,12 @@ def test_an_environment_variable_shows_where_an_error_happened(scene, solver, ca
     assert "Traceback" in capsys.readouterr().err
 
 
-def test_points_and_depths_are_refused_before_the_solve(scene: Path, solver: Any) -> None:
+def test_points_and_depths_are_refused_before_the_solve(scene, solver):
     solver(NotConverged("pressure", 100, 1e-3, 1e-8))
     for place in (("--depths", "-1 um"), ("--at", "0,0,-1 um")):
         assert slipstick("stress", scene, *place, "--output", scene.parent / "out") == 2
 
 
-def test_a_message_shows_control_characters_by_their_codes(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_message_shows_control_characters_by_their_codes(capsys):
     print_message("µ\x1b[2J\n")
     assert capsys.readouterr().err == "µ\\x1b[2J\\n\n"

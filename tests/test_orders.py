@@ -10,18 +10,14 @@ import pytest
 from verification.judging.case import (
     Case,
     Derived,
-    Followed,
     NotYetAsymptotic,
     Order,
     Quantity,
-    Reference,
-    ReferenceKind,
-    Refinement,
     Required,
 )
 from verification.judging.judgement import judge_order, judge_quantity, judge_worst
 from verification.judging.outcome import Status, Verdict
-from verification.problems.problem import identity
+from verification.problems.problem import Reference, ReferenceKind, identity
 from verification.solver import Solver
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
@@ -61,7 +57,7 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
         for n, row in enumerate(np.reshape(errors, (len(SIZES), -1)))
         for k, error in enumerate(row)
     }
-    return verdict_on(results, Followed.SHIFT, lambda result: result.error, expected)
+    return verdict_on(results, "tangential shift", lambda result: result.error, expected)
 
 
 def test_runs_of_one_size_tell_the_order_that_each_alone_hides(rng):
@@ -157,11 +153,11 @@ def judged_change(errors, expected, not_yet=None, sizes=HALVED, apart=1):
     }
     return verdict_on(
         results,
-        Followed.APPROACH,
+        "approach",
         lambda one, other: abs(one.value - other.value),
         expected,
         not_yet,
-        refined=Refinement.INCREMENTS,
+        refined="increments",
         size=lambda result: result.size,
         apart=apart,
     )

@@ -116,7 +116,7 @@ def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch):
     assert lost["peak_pressure"] == pytest.approx(0.1 * NormalDist().inv_cdf(0.999), rel=0.05)
 
 
-def test_increments_are_measured_on_eleven_cells_per_contact_radius() -> None:
+def test_increments_are_measured_on_eleven_cells_per_contact_radius():
     fine = SurfaceDiscretisation(cells=(96, 96), window=(3 * A, 3 * A), edge="off")
     solver = CellSolver(scene(PRESS, friction=None), fine)
     result = solver.run(lambda *_: None)

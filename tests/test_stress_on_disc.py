@@ -373,7 +373,7 @@ def test_cells_have_the_largest_stresses_of_the_radial_solver(body, upper):
 
 
 @pytest.mark.parametrize("depth", [-1e-3, np.inf, np.nan])
-def test_a_depth_outside_the_body_is_refused(depth: float) -> None:
+def test_a_depth_outside_the_body_is_refused(depth):
     state = state_of_result(radial.solve(scene_of(BARE)), None)
     with pytest.raises(ValueError, match="got a depth of"):
         OnDisc(state, False).stress([0.5, depth])

@@ -17,7 +17,7 @@ from verification.studies.stability.contacts import (
     LoadingPath,
     Posed,
     Refusal,
-    SolvedContact,
+    Solved,
     StabilityCell,
     Surface,
     Verdict,
@@ -33,7 +33,6 @@ GOOD = CellRecord(
     residual=2e-9,
     observed=3e-9,
     increments=4,
-    rounds=7,
     way="alternation",
     iterations=80,
     convolutions=400,
@@ -49,8 +48,8 @@ def test_a_level_has_enough_cells_with_names_of_their_own(level, least):
     assert {cell.surface for cell in cells} == set(Surface)
 
 
-def failing_with(error: Exception) -> Callable[[Posed], SolvedContact]:
-    def fail(posed: Posed) -> SolvedContact:
+def failing_with(error: Exception) -> Callable[[Posed], Solved]:
+    def fail(posed: Posed) -> Solved:
         raise error
 
     return fail

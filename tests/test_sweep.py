@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from contact_results.figures.style import round_ticks
 from slipstick.sweep import Variation
-from slipstick.sweep_chart import MAX_LABEL, SweptQuantity, _draw_map, _label, round_ticks
+from slipstick.sweep_chart import MAX_LABEL, SweptQuantity, _draw_map, _label
 
 
 @pytest.mark.parametrize(

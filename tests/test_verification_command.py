@@ -33,7 +33,7 @@ def failed(outcome: CaseOutcome) -> set[str]:
 @pytest.fixture(scope="module")
 def sliding():
     """A case and the results of its runs."""
-    case = near_sliding(cells=64)
+    case = near_sliding()
     return case, {run.label: run.solve() for run in case.runs}
 
 

@@ -11,8 +11,14 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike
 
 from contact_scene.array_types import Field
+
+
+def max_norm(values: ArrayLike) -> float:
+    """Return the maximum norm of an array, its largest magnitude."""
+    return float(np.max(np.abs(values)))
 
 
 def relative_l1(field: Field, exact: Field) -> float:

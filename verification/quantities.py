@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contact_results.surface import surface_of
 from contact_scene.array_types import Field
 from contact_scene.quantities.increment import (
     SCALARS,
     State,
     components,
 )
+from verification.norms import max_norm
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -61,6 +63,23 @@ def shear_of(increment: Increment) -> Field:
     return increment.shear
 
 
+def tractions_along_load(result: Result, end: Any) -> tuple[Field, Field, Field]:
+    """Return the pressure, and the shear along the load, on the line of profiles of a result.
+
+    Without friction the shear is zero.
+
+    end  state at the end of a load step
+
+    Returns the places on the line [length] and both tractions [force/length²].
+    """
+    surface = surface_of(result)
+    pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
+    assert pressure is not None
+    p = surface.along(pressure)
+    q = 0 * p if shear is None else surface.vector_along(shear)[0]
+    return surface.profile_line.places, p, q
+
+
 def relative_difference(name: str, step: int, one: Any, other: Any) -> float:
     """Compute the relative difference of a scalar of two results at the end of a load step [1].
 
@@ -96,4 +115,4 @@ def transverse_shear(increment: Increment, friction_coefficient: float) -> float
     friction_coefficient  µ
     """
     limit = friction_coefficient * np.max(increment.pressure)
-    return float(np.max(np.abs(shear_of(increment)[1])) / limit)
+    return float(max_norm(shear_of(increment)[1]) / limit)

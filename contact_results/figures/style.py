@@ -3,12 +3,14 @@
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 # Okabe and Ito (2008): distinct for every common kind of colour vision; no yellow on white.
@@ -40,6 +42,10 @@ STYLE: Any = {
 DOTS_PER_INCH = 150
 OF_SECTIONS = 120  # dots per inch of contour plots, which compress badly
 CAPTION_SIZE = 7.5
+# Numbers of ticks of a logarithmic axis.
+MAX_TICKS = 8
+LEAST_TICKS = 2
+FEW_DECADES = 2
 
 
 @contextmanager
@@ -73,6 +79,25 @@ def line_style(number: int) -> dict[str, Any]:
     number  number of the curve in its figure, from 0
     """
     return {"color": LINE_COLOURS[number], "linestyle": LINE_STYLES[number]}
+
+
+def round_ticks(low: float, high: float) -> list[float]:
+    """Return round numbers in a range, for the ticks of a logarithmic axis.
+
+    They are powers of ten; below `FEW_DECADES` also 2 and 5 times these; where fewer than two of
+    them are in the range, multiples of a round step. A range of one number has this tick.
+
+    low, high  ends of the range, both positive
+    """
+    decades = range(floor(log10(low)), ceil(log10(high)) + 1)
+    parts = (1, 2, 5) if high < low * 10**FEW_DECADES else (1,)
+    # As text a number has no round-off: 2e-05 and not 2.0000000000000002e-05.
+    ticks = [float(f"{part}e{decade}") for decade in decades for part in parts]
+    within = [tick for tick in ticks if low <= tick <= high]
+    if len(within) < LEAST_TICKS:
+        steps = MaxNLocator(MAX_TICKS, steps=(1, 2, 5, 10)).tick_values(low, high)
+        within = [float(tick) for tick in steps if low < tick < high] or [low]
+    return within[:: ceil(len(within) / MAX_TICKS)]
 
 
 def legend_above(ax: Any, **given: Any) -> None:

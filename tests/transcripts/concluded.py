@@ -8,7 +8,6 @@ import numpy as np
 from contact_scene.quantities.stated_error import ErrorStatus, StatedError
 from verification.judging.case import Level
 from verification.problems.drawn.drawing import Truth
-from verification.problems.problem import Reference, ReferenceKind
 from verification.running.study import CaseRecord, Row, Settings, parameters_of
 from verification.studies import coated_tractions, error_coverage, seeded_defects, work_precision
 from verification.studies.catalogue import STUDIES
@@ -68,11 +67,11 @@ def of_scene(
         return CaseRecord(measures=measures, words={"outcome": "met"})
     rows, states = [], cycle([*ErrorStatus, ErrorStatus.ESTIMATED, ErrorStatus.ESTIMATED])
     for quantity in ("approach", "contact_radius", "peak_pressure", "tangential_shift") * 6:
-        known = Reference(2.0, ReferenceKind.CLOSED_FORM, "test", between(1e-9, 1e-4))
+        uncertainty = between(1e-9, 1e-4)
         parts = {"cells": 1.0} if next(NUMBER) % 3 else {"quadrature": 1.0}
         error = between(1e-5, 3e-2)
         stated = StatedError(error=error, parts=parts, status=next(states))
-        truth = Truth(1, quantity, known)
+        truth = Truth(1, quantity, 2.0, uncertainty)
         rows.append(error_coverage.coverage_row(truth, 2.0 + off + error * between(0.1, 1), stated))
     return CaseRecord(parameters={"family": case.family}, parts=tuple(rows))
 

@@ -113,7 +113,7 @@ def show_drawn() -> None:
         show("drawn", name, posed)
     for name in ANSWERED.split():
         truths = drawn(name, 2, 0).truths
-        bounds = [one.reference.value + one.reference.uncertainty for one in truths]
+        bounds = [one.value + one.uncertainty for one in truths]
         show("answer", name, bounds, [(one.step, one.quantity) for one in truths])
 
 

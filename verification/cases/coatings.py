@@ -58,6 +58,7 @@ from verification.judging.declared_case import (
     JUDGED_BY,
     PRESSURE_L2,
     Falls,
+    Judged,
     Refined,
     Row,
     Within,
@@ -78,6 +79,7 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.laws.limit_laws import LAWS, worst_violation
+from verification.norms import max_norm
 from verification.problems.indentation import (
     BARE,
     CONE,
@@ -455,7 +457,7 @@ def thin_layer(level: Level = Level.QUICK) -> Case:
             judged(named(one.name, on_cells(one.problem, (cells,), 2.2)), one.rows)
             for one in layers
         ),
-        quantities=tuple(one.check for one in layers),
+        Judged(quantities=tuple(one.check for one in layers)),
         equations=(
             r"W \to \frac{\pi a^4}{4 R h} \frac{E (1 - \nu)}{(1 + \nu)(1 - 2\nu)},\quad "
             r"W \to \frac{\pi E a^6}{96 R h^3} \ (\nu = \tfrac{1}{2})",
@@ -488,7 +490,7 @@ def _pressure_error(result: Any, _: int, problem: Problem) -> float:
     else:
         inside = r < WITHIN * problem.radius
         r, found = r[inside], found[inside]
-    return float(np.max(np.abs(found - exact.pressure(r))) / scale)
+    return float(max_norm(found - exact.pressure(r)) / scale)
 
 
 def radial_pressing(level: Level = Level.QUICK) -> Case:
@@ -566,7 +568,7 @@ def _frf_errors(number: int) -> tuple[float, float]:
     difference = response_matrix(_reference_stack(row), row["m"], row["n"]) - expected
     return (
         float(np.max(np.abs(got - (c11, c12, c22, csh)) / scale)),
-        float(np.abs(difference).max() / np.abs(expected).max()),
+        max_norm(difference) / max_norm(expected),
     )
 
 
@@ -619,34 +621,36 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
         "to exactly ½, α h from 1e-6 to 1e4, against a solution with 50 digits. Displacement by "
         "unit traction on a square cell of a coated body, against inverse transforms. Every row "
         "is shown.",
-        quantities=(
-            computed_error(
-                "scalars",
-                "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
-                "relative to √(C₁₁C₂₂)",
-                f"{len(FRF_ROWS)} rows",
-                partial(_worst_frf_error, 0),
-                exact(frf, 1e-24),
-                required,
-            ),
-            computed_error(
-                "matrix",
-                "largest error of an entry relative to the largest entry",
-                f"{len(FRF_ROWS)} rows",
-                partial(_worst_frf_error, 1),
-                exact(frf, 1e-24),
-                required,
-            ),
-            computed_error(
-                "influence_coefficients",
-                "largest error relative to the loaded cell's own displacement",
-                f"{len(COEFFICIENT_ROWS)} rows",
-                lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
-                # Both programs, which share nothing, agree to rounding: the record is better than
-                # the 1e-12 that its integrals were asked for.
-                exact(COEFFICIENT_SOURCE, 1e-15),
-                Required(1e-14, "twenty times the rounding error"),
-            ),
+        Judged(
+            quantities=(
+                computed_error(
+                    "scalars",
+                    "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
+                    "relative to √(C₁₁C₂₂)",
+                    f"{len(FRF_ROWS)} rows",
+                    partial(_worst_frf_error, 0),
+                    exact(frf, 1e-24),
+                    required,
+                ),
+                computed_error(
+                    "matrix",
+                    "largest error of an entry relative to the largest entry",
+                    f"{len(FRF_ROWS)} rows",
+                    partial(_worst_frf_error, 1),
+                    exact(frf, 1e-24),
+                    required,
+                ),
+                computed_error(
+                    "influence_coefficients",
+                    "largest error relative to the loaded cell's own displacement",
+                    f"{len(COEFFICIENT_ROWS)} rows",
+                    lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
+                    # Both programs, which share nothing, agree to rounding: the record is better
+                    # than the 1e-12 that its integrals were asked for.
+                    exact(COEFFICIENT_SOURCE, 1e-15),
+                    Required(1e-14, "twenty times the rounding error"),
+                ),
+            )
         ),
         equations=(FREQUENCY_RESPONSE,),
         no_order="both sides are exact in the wavenumber, or quadratures to rounding",
@@ -671,21 +675,23 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         "The value is the largest violation, relative to the largest entry unless stated "
         "otherwise. The bodies are the same in every run; the tests search for larger "
         "violations.",
-        quantities=tuple(
-            computed_error(
-                law.name,
-                law.statement,
-                f"{law.draws} bodies",
-                partial(worst_violation, law),
-                identity(0.0, "elastic layered half-spaces"),
-                Required(
-                    law.allowed,
-                    "bound of the law"
-                    if law.allowed == 1
-                    else "rounding, or the law's own next order",
-                ),
+        Judged(
+            quantities=tuple(
+                computed_error(
+                    law.name,
+                    law.statement,
+                    f"{law.draws} bodies",
+                    partial(worst_violation, law),
+                    identity(0.0, "elastic layered half-spaces"),
+                    Required(
+                        law.allowed,
+                        "bound of the law"
+                        if law.allowed == 1
+                        else "rounding, or the law's own next order",
+                    ),
+                )
+                for law in LAWS
             )
-            for law in LAWS
         ),
         equations=(r"\mathbf{t}^H \mathbf{F} \mathbf{t} > 0",),
         no_order="laws of the response itself, in which nothing converges",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from contact_scene import LoadStep, Scene
+from contact_scene import Scene
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     IDENTITY,
@@ -21,7 +21,7 @@ from verification.judging.declared_case import (
     part_of_side,
     with_edge_at,
 )
-from verification.problems.cattaneo_mindlin import SLIDING_TORQUE, sheared, virgin
+from verification.problems.cattaneo_mindlin import SLIDING_TORQUE, sheared, torque_step, virgin
 from verification.problems.problem import (
     FRICTION_LIMIT,
     HERTZ,
@@ -97,8 +97,8 @@ def pushed(parts: Sequence[float]) -> Problem:
 def twisted() -> Problem:
     """Create the problem of a ball under a torque that grows in two steps."""
     exact = [virgin(part * SLIDING_TORQUE) for part in TORQUES.values()]
-    steps = [LoadStep(torque=part * SLIDING_TORQUE, increments=1) for part in TORQUES.values()]
-    scene = frictional("Torsional stiffness of a ball", paraboloid(STEEL), STEEL, *steps[1:])
+    _, *steps = map(torque_step, TORQUES.values())
+    scene = frictional("Torsional stiffness of a ball", paraboloid(STEEL), STEEL, *steps)
     slopes = [end.torsional_stiffness for end in exact]
     return Problem(
         _requested(scene),

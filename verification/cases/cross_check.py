@@ -10,15 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 from itertools import combinations, product
 from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from contact_results.surface import surface_of
 from contact_scene import FiniteElementDiscretisation, LoadStep, Scene
 from contact_scene.array_types import Field
 from fem_reference.stress import SurfaceTractions
@@ -31,27 +30,27 @@ from verification.exhibits.chart import Look, Panel, curve, stacked
 from verification.judging.case import (
     OVER_ANGLES,
     OVER_RINGS,
-    SOLVER_TOLERANCE,
     AnyRun,
     Case,
     Level,
-    Quantity,
     RadiiRun,
     Run,
     SectionRun,
-    compare_runs,
+    per_radius,
 )
 from verification.judging.declared_case import (
     FORCE,
     Judged,
     Within,
     case,
+    compared,
     error_norm,
     judged,
     on_cells,
     on_elements,
 )
 from verification.judging.field_errors import pressure_at, shear_at
+from verification.norms import max_norm
 from verification.problems.problem import (
     FRICTION,
     HERTZ,
@@ -67,7 +66,7 @@ from verification.problems.problem import (
     square_grid,
     tangential_step,
 )
-from verification.quantities import relative_difference, shear_of
+from verification.quantities import relative_difference, shear_of, tractions_along_load
 from verification.references import load_reference
 
 Results = Mapping[str, Any]
@@ -122,11 +121,7 @@ class Contact:
         solver.
         """
         scene = self._coated_scene
-        mesh = FiniteElementDiscretisation(
-            elements_per_radius=self.elements,
-            contact_radius=self.radius,
-            tolerance=SOLVER_TOLERANCE,
-        )
+        mesh = per_radius(self.elements, self.radius)
         if self.harmonics:
             mesh = mesh.model_copy(update={"harmonics": self.harmonics})
         grid = square_grid(self.cells, MARGIN * self.radius)
@@ -165,14 +160,9 @@ class Contact:
         Returns the positions [length], the pressure and the shear component along the line
         [force/length²], each of shape (801,).
         """
-        surface, end = surface_of(result), result.steps[step]
-        pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
-        assert pressure is not None
+        places, p, q = tractions_along_load(result, result.steps[step])
         reach = WITHIN * self.radius
         x = np.linspace(-reach if self.harmonics else 0.0, reach, POINTS)
-        p = surface.along(pressure)
-        q = 0 * p if shear is None else surface.vector_along(shear)[0]
-        places = surface.profile_line.places
         # Tractions on rings are linear in between; those on cells are means of smooth ones.
         if hasattr(result, "grid"):
             return x, CubicSpline(places, p)(x), CubicSpline(places, q)(x)
@@ -193,7 +183,7 @@ class Contact:
         off, whole = (p - p_other, p_other) if of == "pressure" else (q - q_other, limit)
         return float(np.sum(np.abs(off) * area) / np.sum(whole * area))
 
-    def comparisons(self) -> tuple[Quantity, ...]:
+    def comparisons(self) -> tuple[Judged, ...]:
         """List the judged comparisons of every two of the three solvers at the end of every load
         step.
 
@@ -236,11 +226,12 @@ class Contact:
             )
         parts = (0.0, *PARTS) if self.harmonics else (0.0,)
         return tuple(
-            compare_runs(
+            compared(
                 f"{name}_difference" + (f"_at_{part:g}" if self.harmonics else ""),
                 f"difference of two solvers: {meaning}"
                 + (f", at {part:g} µW" if self.harmonics else ""),
-                (one.label, other.label),
+                one,
+                other,
                 partial(difference, step),
                 allowed * (ON_FEW_RINGS if name == "shear" and self.harmonics and rings else 1.0),
                 because,
@@ -285,14 +276,14 @@ class Contact:
             for z, m in zip(section.points[1, on_axis], section.material[on_axis], strict=True)
         )
         found = subsurface(body, wide, pressure, shear, levels).below()[1].T[components]
-        apart.append(np.max(np.abs(found - section.stress()[components][:, on_axis])))
+        apart.append(max_norm(found - section.stress()[components][:, on_axis]))
         for side in (0, 1):
             chosen = section.interface_points(depth, side)
             chosen = chosen[section.points[0, chosen] <= 1.5 * a]
             field = subsurface(body, wide, pressure, shear, (Depth(depth, side),)).along_x()
             spline = CubicSpline(field.x, field.stress[0, :, :, 0], axis=1)
             found = spline(section.points[0, chosen])[components]
-            apart.append(np.max(np.abs(found - section.stress()[components][:, chosen])))
+            apart.append(max_norm(found - section.stress()[components][:, chosen]))
         return float(np.max(apart) / np.max(end.pressure))
 
     def panels(self, results: Results) -> tuple[Panel, Panel]:
@@ -381,22 +372,20 @@ def cross_check(level: Level = Level.QUICK) -> Case:
         "tangentially to 0.3, 0.6 and 0.9 of µW. Every two solvers are compared. Cells and the "
         "radial solver share the response of layers to one wavenumber; otherwise the three "
         "solvers share only the scene.",
-        runs=tuple(run for one in chosen for run in one.runs),
-        quantities=(
-            *(comparison for one in chosen for comparison in one.comparisons()),
-            compare_runs(
-                "stress_difference",
-                "largest difference of a component of the stress over p₀: on the axis from 0.1 "
-                "to 3 contact radii, above the interface and below it",
-                (first.runs[0].label, first.runs[1].label),
-                first.stress_apart,
-                5e-3,
-                "set by hand: five times the error of the stress recovery of elements, against "
-                "Huber's stress on an equally fine mesh",
-                "the other solver, on the same increments",
-                ReferenceKind.OTHER_SOLVER,
-                1e-3,
-            ),
+        *(comparison for one in chosen for comparison in one.comparisons()),
+        compared(
+            "stress_difference",
+            "largest difference of a component of the stress over p₀: on the axis from 0.1 to 3 "
+            "contact radii, above the interface and below it",
+            first.runs[0],
+            first.runs[1],
+            first.stress_apart,
+            5e-3,
+            "set by hand: five times the error of the stress recovery of elements, against "
+            "Huber's stress on an equally fine mesh",
+            "the other solver, on the same increments",
+            ReferenceKind.OTHER_SOLVER,
+            1e-3,
         ),
         charts=(
             lambda results: stacked(
@@ -431,101 +420,22 @@ RECORDED_BALL = PointContact.under_load(10.0, 1800.0, MODULUS / (1 - RATIO**2))
 MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * MODULUS)
 
 
-class Certain(NamedTuple):
-    """Hold a number of the CalculiX record together with its standard uncertainty."""
-
-    value: float
-    uncertainty: float
-
-
-class Profile(NamedTuple):
-    """Hold a traction (pressure or shear) that CalculiX computed, as a function of the radius.
-
-    radii        distances from the axis over the Hertz contact radius a_H (points,)
-    values       traction over the Hertz peak pressure p_H (points,)
-    uncertainty  standard uncertainty of all values [p_H]
-    """
-
-    radii: Field
-    values: Field
-    uncertainty: float
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """Hold the stored CalculiX results of one scene.
+def extrapolated(
+    record: Mapping[str, Any], read: Callable[[Mapping[str, Any]], Any]
+) -> tuple[Any, Any]:
+    """Extrapolate numbers that CalculiX computed to rigid contact.
 
     The record has three runs: a coarse mesh, a mesh that is twice as fine, and the fine mesh with
-    half the contact stiffness (pressure per overlap of the surfaces). From these the results are
-    extrapolated to rigid contact, and their uncertainty is estimated.
+    half the contact stiffness (pressure per overlap of the surfaces).
+
+    record  stored results of one scene
+    read    function that reads the numbers of one run
+
+    Returns the numbers and their standard uncertainty.
     """
-
-    record: Mapping[str, Any]
-
-    def __post_init__(self) -> None:
-        """Check that the record has a coarse run, a fine run and a fine run of half the contact
-        stiffness.
-
-        Raises ValueError if not.
-        """
-        coarse, fine, soft = self.record["runs"]
-        if not (
-            fine["elements"] == soft["elements"] == 2 * coarse["elements"]
-            and fine["stiffness"] == coarse["stiffness"] == 2 * soft["stiffness"]
-        ):
-            raise ValueError(
-                "the record must hold three runs: coarse, twice as fine, and the "
-                "fine mesh with half the stiffness. Restore the file of the reference"
-            )
-
-    @property
-    def normal_force(self) -> Certain:
-        """Normal force of CalculiX over the nominal force, with its standard uncertainty [1].
-
-        The force is extrapolated to infinite contact stiffness. The uncertainty contains the change
-        by mesh refinement.
-        """
-        coarse, fine, soft = (float(run["normal_force"]) for run in self.record["runs"])
-        correction, refinement = fine - soft, fine - coarse
-        errors = (LEFT_OF_CORRECTION * correction, refinement, MOVED_GAP * fine)
-        return Certain(fine + correction, math.hypot(*errors))
-
-    @cached_property
-    def edge(self) -> float:
-        """Radius of the outermost recorded traction over the Hertz contact radius, smallest of the
-        runs.
-        """
-        return float(min(run["radii"][-1] for run in self.record["runs"]))
-
-    def profile(self, traction: str, first: float, last: float) -> Profile:
-        """Return the CalculiX pressure or shear at the radii that coarse and fine mesh have in
-        common.
-
-        The traction is extrapolated to infinite contact stiffness.
-
-        traction     "pressure" or "shear"
-        first, last  smallest and largest radius, over the Hertz contact radius
-        """
-        coarse, fine, soft = self.record["runs"]
-        radii = np.array(coarse["radii"])
-        chosen = np.flatnonzero((radii >= first) & (radii <= last))
-
-        def at_common_radii(run: Mapping[str, Any]) -> Field:
-            every = 1 if run is coarse else 2
-            return np.array(run[traction])[every * chosen]
-
-        rough, good, weak = (at_common_radii(run) for run in (coarse, fine, soft))
-        correction, refinement = good - weak, good - rough
-        errors = np.hypot(LEFT_OF_CORRECTION * correction, refinement)
-        return Profile(radii[chosen], good + correction, float(np.max(errors)))
-
-
-def recorded(name: str) -> Recorded:
-    """Return the stored CalculiX results of a scene; raise KeyError for an unknown name.
-
-    name  name of the scene in references/external_code_calculix.json
-    """
-    return Recorded({each["name"]: each for each in load_reference(NAME)["scenes"]}[name])
+    coarse, fine, soft = map(read, record["runs"])
+    correction = fine - soft
+    return fine + correction, np.hypot(LEFT_OF_CORRECTION * correction, fine - coarse)
 
 
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp
@@ -544,7 +454,9 @@ NAMES = {
 Reader = Callable[[Any, Field], Field]
 
 
-def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
+def _recorded_parts(
+    name: str, row: Mapping[str, Any], cells: int, elements: int
+) -> tuple[Judged, ...]:
     """Create the judged runs of one scene that CalculiX has computed, on finite elements and on
     cells.
 
@@ -552,11 +464,11 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     in the increments of the record.
 
     name      label of the scene in reports
-    of        stored CalculiX results of the scene
+    row       stored CalculiX results of the scene
     cells     number of cells per side
     elements  number of elements per contact radius
     """
-    row, friction = of.record, float(of.record["friction"])
+    friction = float(row["friction"])
     step = {"increments": row["increments"]} if friction else {}
     scene = pressed(
         f"Rigid ball moved towards a body: {name}",
@@ -565,7 +477,8 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
         LoadStep(approach=row["approach"] * HERTZ.approach, **step),
         friction=friction,
     )
-    value, uncertainty = of.normal_force
+    value, left = extrapolated(row, lambda run: float(run["normal_force"]))
+    uncertainty = math.hypot(left, MOVED_GAP * row["runs"][1]["normal_force"])
     problem = Problem(
         scene,
         (SimpleNamespace(load=value * NORMAL_FORCE),),
@@ -577,10 +490,10 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     force = replace(FORCE, meaning="force at this approach")
     rows = [
         (problem, Within(force, 2 * math.hypot(problem.uncertainty, FORCE_ERROR), OURS)),
-        _traction_row(problem, of, "pressure", 1.0, "p_H", pressure_at),
+        _traction_row(problem, row, "pressure", 1.0, "p_H", pressure_at),
     ]
     if friction:
-        rows.append(_traction_row(problem, of, "shear", friction, "µp_H", shear_at))
+        rows.append(_traction_row(problem, row, "shear", friction, "µp_H", shear_at))
     return tuple(
         judged(replace(ladder, problem=answer), (within,))
         for ladder in (
@@ -592,26 +505,31 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
 
 
 def _traction_row(
-    problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
+    problem: Problem, record: Mapping[str, Any], name: str, part: float, unit: str, read: Reader
 ) -> tuple[Problem, Within]:
     """Create the row that judges a computed traction against the stored CalculiX traction.
 
     Returns the problem with the uncertainty of this traction, and the row with the tolerance.
 
     problem  problem of the recorded scene
-    of       stored CalculiX results of the scene
+    record   stored CalculiX results of the scene
     name     "pressure" or "shear"
     part     error scale over the Hertz peak pressure p_H: 1, or µ for the shear
     unit     description of the error scale
     read     function that interpolates the computed traction to given radii
     """
-    last = of.edge - EDGE
-    known = of.profile(name, FIRST, last)
-    uncertainty = known.uncertainty / part
+    last = min(run["radii"][-1] for run in record["runs"]) - EDGE
+    coarse = record["runs"][0]
+    radii = np.array(coarse["radii"])
+    common = np.flatnonzero((radii >= FIRST) & (radii <= last))
+    known, errors = extrapolated(
+        record, lambda run: np.array(run[name])[(1 if run is coarse else 2) * common]
+    )
+    uncertainty = float(np.max(errors)) / part
 
     def largest_difference(result: Any, *_: Any) -> float:
-        found = read(result, known.radii * HERTZ.contact_radius) / HERTZ.peak_pressure
-        return float(np.max(np.abs(found - known.values[:, None]))) / part
+        found = read(result, radii[common] * HERTZ.contact_radius) / HERTZ.peak_pressure
+        return max_norm(found - known[:, None]) / part
 
     what = error_norm(
         name,
@@ -640,8 +558,8 @@ def external_codes(level: Level = Level.QUICK) -> Case:
         "stored: see docs/studies/calculix.md.",
         *(
             part
-            for key, name in NAMES.items()
-            for part in _recorded_parts(name, recorded(key), *sizes)
+            for record in load_reference(NAME)["scenes"]
+            for part in _recorded_parts(NAMES[record["name"]], record, *sizes)
         ),
         limits=(
             "In CalculiX the ball has a hundred times the radius and a hundredth of the force, "

@@ -55,6 +55,7 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import Section, convergence
 from verification.judging.field_errors import away_from_edges
+from verification.norms import max_norm
 from verification.observed.ring_errors import judged_within
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
@@ -201,7 +202,7 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
     """
     section = Section(result.grid, HERTZ.contact_radius)
     scale = FRICTION * HERTZ.peak_pressure
-    x = section.x / HERTZ.contact_radius
+    x, r = section.x / HERTZ.contact_radius, np.hypot(section.x, section.y)
     by_increment = {(i.step, i.index): state for i, state in exact.along(result)}
     limit = section.of(FRICTION * result.increments[-1].pressure) / scale
     panels = []
@@ -214,7 +215,7 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
             curve(
                 "closed form" if n == 0 else "",
                 x,
-                by_increment[i.step, i.index].shear(section.r) / scale,
+                by_increment[i.step, i.index].shear(r) / scale,
                 Look.REFERENCE,
             )
             for n, (_, i) in enumerate(states)
@@ -650,7 +651,7 @@ def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
     """
     largest = problem.ends[-1].end.shift
     found = [shift_along_x(end) for end in result.steps[1:]]
-    return float(np.max(np.abs(np.subtract(found, (largest, -largest, largest)))))
+    return max_norm(np.subtract(found, (largest, -largest, largest)))
 
 
 FORCE = number(

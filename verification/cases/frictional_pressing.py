@@ -27,12 +27,9 @@ from verification.judging import field_errors
 from verification.judging.case import (
     AnyRun,
     Case,
-    Followed,
     Level,
     Order,
-    Refinement,
     Run,
-    compare_runs,
 )
 from verification.judging.declared_case import (
     APPROACH,
@@ -42,12 +39,14 @@ from verification.judging.declared_case import (
     PENALTY,
     STICK_RADIUS,
     Drawing,
+    Judged,
     Observable,
     RefinementLevels,
     Within,
     because,
     case,
     cells_label,
+    compared,
     error_norm,
     finest,
     judged,
@@ -206,7 +205,7 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
 
 def _change(
     runs: Sequence[AnyRun],
-    of: Followed,
+    of: str,
     meaning: str,
     difference: Callable[[Any, Any], float],
     name: str = "",
@@ -222,7 +221,7 @@ def _change(
     name        name of the verdict after `order_of_`; default: the name of the quantity
     """
     return Order(
-        f"order_of_{name or of.value}",
+        f"order_of_{name or of}",
         of,
         meaning,
         tuple(run.label for run in runs),
@@ -230,7 +229,7 @@ def _change(
         1.0,
         "the direction of slip and the friction limit change during an increment, which takes both "
         "at its end: the backward Euler rule",
-        refined=Refinement.INCREMENTS,
+        refined="increments",
         size=_increment_size,
         apart=1,
     )
@@ -310,9 +309,9 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         for count in counts
     )
     orders = (
-        _change(runs, Followed.SHIFT, "tangential shift", SHIFT_CHANGE, "shift"),
-        _change(runs, Followed.SHEAR, "shear (L1)", _shear_change),
-        _change(runs[1:], Followed.APPROACH, "approach", APPROACH_CHANGE),
+        _change(runs, "tangential shift", "tangential shift", SHIFT_CHANGE, "shift"),
+        _change(runs, "shear", "shear (L1)", _shear_change),
+        _change(runs[1:], "approach", "approach", APPROACH_CHANGE),
     )
     return case(
         "sheared_increments",
@@ -322,22 +321,19 @@ def sheared_increments(level: Level = Level.QUICK) -> Case:
         "and pressure are coupled, and the slip turns from the radial direction to that of the "
         "force. The result depends on the load path and has no known exact solution. Each "
         "doubling of the increments must reduce the change.",
-        runs=runs,
-        orders=orders if several else (),
-        quantities=(
-            compare_runs(
-                "shift",
-                f"change of the shift from {counts[-2]} to {counts[-1]} increments",
-                (runs[-2].label, runs[-1].label),
-                SHIFT_CHANGE,
-                2e-2 * 4 / counts[-2],
-                "2 % from 4 to 8 increments, and half of that with each further doubling: first "
-                "order",
-                "the same solver with half the increments",
-                ReferenceKind.OWN_REFINEMENT,
-                coarse=runs[-2].label,
-            ),
+        compared(
+            "shift",
+            f"change of the shift from {counts[-2]} to {counts[-1]} increments",
+            runs[-2],
+            runs[-1],
+            SHIFT_CHANGE,
+            2e-2 * 4 / counts[-2],
+            "2 % from 4 to 8 increments, and half of that with each further doubling: first order",
+            "the same solver with half the increments",
+            ReferenceKind.OWN_REFINEMENT,
+            coarse=runs[-2].label,
         ),
+        Judged(runs=runs[:-2], orders=orders if several else ()),
         limits=(
             "Contact and stick radius change by fractions of a cell with the number of "
             "increments: no order.",
@@ -434,43 +430,37 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
         "friction that no cell slips. Bonding stiffens the contact by a factor due to "
         "Mossakovskii. The coupling is strong: a plain alternating iteration between pressure "
         "and shear hardly converges.",
-        runs=(
-            *bonded.values(),
-            *smooth.values(),
-            *(pair[0] for pair in balls.values()),
-            *(pair[1] for pair in balls.values()),
+        *(
+            compared(
+                f"punch_nu_{text(nu)}",
+                f"ν = {nu:g}: load factor of the bonded over the smooth punch, relative error",
+                bonded[nu],
+                smooth[nu],
+                partial(_factor_error, nu),
+                1e-3,
+                "the singular edge leaves errors of the order of a cell in both stiffnesses",
+                NO_SLIP_SOURCE,
+                ReferenceKind.CLOSED_FORM,
+                ROUNDING,
+            )
+            for nu in NO_SLIP_RATIOS
         ),
-        quantities=(
-            *(
-                compare_runs(
-                    f"punch_nu_{text(nu)}",
-                    f"ν = {nu:g}: load factor of the bonded over the smooth punch, relative error",
-                    (bonded[nu].label, smooth[nu].label),
-                    partial(_factor_error, nu),
-                    1e-3,
-                    "the singular edge leaves errors of the order of a cell in both stiffnesses",
-                    NO_SLIP_SOURCE,
-                    ReferenceKind.CLOSED_FORM,
-                    ROUNDING,
-                )
-                for nu in NO_SLIP_RATIOS
-            ),
-            *(
-                compare_runs(
-                    f"ball_nu_{text(nu)}",
-                    f"ν = {nu:g}: approach of the ball, extrapolated from "
-                    f"{few} and {many} increments, relative error",
-                    (pair[0].label, pair[1].label),
-                    partial(_bonded_ball_error, nu),
-                    2e-4,
-                    "accuracy target of the coupled solver; first order in the increment",
-                    # Eight digits of both factors.
-                    NO_SLIP_BALL_SOURCE,
-                    ReferenceKind.SEMI_CLOSED,
-                    1e-7,
-                )
-                for nu, pair in balls.items()
-            ),
+        *(
+            compared(
+                f"ball_nu_{text(nu)}",
+                f"ν = {nu:g}: approach of the ball, extrapolated from "
+                f"{few} and {many} increments, relative error",
+                pair[0],
+                pair[1],
+                partial(_bonded_ball_error, nu),
+                2e-4,
+                "accuracy target of the coupled solver; first order in the increment",
+                # Eight digits of both factors.
+                NO_SLIP_BALL_SOURCE,
+                ReferenceKind.SEMI_CLOSED,
+                1e-7,
+            )
+            for nu, pair in balls.items()
         ),
         equations=(
             r"\frac{W_\mathrm{bonded}}{W_\mathrm{smooth}} = "

@@ -19,7 +19,6 @@ from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
-    FiniteElementDiscretisation,
     FlatPunch,
     FrictionMap,
     HeightMap,
@@ -43,7 +42,8 @@ from verification.judging.case import (
     SectionRun,
     per_radius,
 )
-from verification.judging.declared_case import IDENTITY, case, compared
+from verification.judging.declared_case import IDENTITY, Judged, case, compared
+from verification.norms import max_norm
 from verification.problems.cattaneo_mindlin import (
     LARGEST,
     PUNCH_RADIUS,
@@ -134,7 +134,7 @@ def same_fields(
             float(np.sum(np.abs(a.pressure - field(b.pressure))) / total),
             float(np.sum(np.abs(shear_of(a) - vector(shear_of(b)))) / total),
             abs(a.approach / b.approach - 1),
-            float(np.max(np.abs(_shift_of(a) - turn(_shift_of(b))))) / b.approach,
+            max_norm(_shift_of(a) - turn(_shift_of(b))) / b.approach,
         )
 
     return worst(*map(apart, one.increments, other.increments))
@@ -189,12 +189,8 @@ class CoupledContact:
         unloading.
         """
         push = 2 / 3 * self.friction * NORMAL_FORCE
-        return (
-            pressing(6),
-            LoadStep(tangential_force=(push, 0.0), increments=2),
-            LoadStep(tangential_force=(-push, 0.0), increments=3),
-            LoadStep(tangential_force=(-0.3 * push, 0.7 * push), increments=2),
-            LoadStep(normal_force=0.7 * NORMAL_FORCE, increments=2),
+        return _loop_and_turn(
+            "normal_force", "tangential_force", NORMAL_FORCE, push, 0.7 * NORMAL_FORCE
         )
 
     def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
@@ -220,17 +216,10 @@ class CoupledContact:
 
         cells  number of cells per side of the window
         """
-        shift = 0.5 * self.friction * HERTZ.approach  # about half of that at gross slip
-        loading = (
-            LoadStep(approach=HERTZ.approach, increments=6),
-            LoadStep(tangential_shift=(shift, 0.0), increments=2),
-            LoadStep(tangential_shift=(-shift, 0.0), increments=3),
-            LoadStep(tangential_shift=(-0.3 * shift, 0.7 * shift), increments=2),
-            LoadStep(approach=0.8 * HERTZ.approach, increments=2),
-        )
-        way = ", led by motion"
-        grid = square_grid(cells, 1.2 * HERTZ.contact_radius)
-        return Run(f"{self.name}{way}", self.scene(loading, way), grid, edge="off")
+        depth, way = HERTZ.approach, ", led by motion"
+        shift = 0.5 * self.friction * depth  # about half of that at gross slip
+        loading = _loop_and_turn("approach", "tangential_shift", depth, shift, 0.8 * depth)
+        return replace(self.run(cells), label=f"{self.name}{way}", scene=self.scene(loading, way))
 
     def section(self, elements: int, harmonics: int) -> SectionRun:
         """Create the finite element run of the first load steps, whose tangential force acts along
@@ -239,14 +228,31 @@ class CoupledContact:
         elements   number of elements per contact radius
         harmonics  highest angular harmonic
         """
-        mesh = FiniteElementDiscretisation(
-            elements_per_radius=elements,
-            contact_radius=HERTZ.contact_radius,
-            harmonics=harmonics,
-            tolerance=SOLVER_TOLERANCE,
+        mesh = per_radius(elements, HERTZ.contact_radius).model_copy(
+            update={"harmonics": harmonics}
         )
         label = f"{self.name}, {elements} elements per radius"
         return SectionRun(label, self.scene(self.history[:BACK], ", to and fro"), mesh)
+
+
+def _loop_and_turn(
+    normal: str, tangential: str, press: float, push: float, release: float
+) -> tuple[LoadStep, ...]:
+    """Create load steps that press, push to and fro along x, turn, and unload.
+
+    normal, tangential    names of the prescribed forces or motions
+    press, push, release  values at the end of pressing, of the push and of unloading
+    """
+    ends = (
+        (normal, press, 6),
+        (tangential, (push, 0.0), 2),
+        (tangential, (-push, 0.0), 3),
+        (tangential, (-0.3 * push, 0.7 * push), 2),
+        (normal, release, 2),
+    )
+    return tuple(
+        LoadStep.model_validate({name: end, "increments": count}) for name, end, count in ends
+    )
 
 
 def coupled_history(level: Level = Level.QUICK) -> Case:
@@ -295,7 +301,7 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
             for step in (PUSHED, BACK)
             for name, (allowed, scalar) in read.items()
         ),
-        runs=(filmed.run(cells), bare.led_run(cells), filmed.led_run(cells)),
+        Judged(runs=(filmed.run(cells), bare.led_run(cells), filmed.led_run(cells))),
         limits=("All solves take equal increments, so that the increment error is not visible.",),
         equations=(ROTATION,),
         no_order=IDENTITY,
@@ -663,8 +669,8 @@ def off_the_way(scene: Scene, result: Any) -> float:
         before = [increment for increment in result.increments if increment.step < number]
         start = _load_vector(before[-1], name) if before else 0.0 * named
         straight = start + (way if before else way**3)[:, None] * (named - start)
-        scale = np.max(np.abs([start, named]))
-        off = worst(off, float(np.max(np.abs(values - straight)) / scale))
+        scale = max_norm([start, named])
+        off = worst(off, max_norm(values - straight) / scale)
     return off
 
 
@@ -676,44 +682,57 @@ def led_histories(level: Level = Level.QUICK) -> Case:
     """
     ball, limit = paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
-    arm = 0.1 * HERTZ.contact_radius  # the whole face is in contact for up to a third of the radius
+    # The whole face is in contact for up to a third of the radius.
+    moment = 0.1 * HERTZ.contact_radius * NORMAL_FORCE
     slope = 0.1 * HERTZ.approach / HERTZ.contact_radius
-    held = LoadStep(normal_force=NORMAL_FORCE, increments=1)
 
-    def scene(title: str, indenter: Paraboloid | FlatPunch, *loading: LoadStep) -> Scene:
-        return frictional(title, indenter, NU_ZERO).model_copy(update={"loading": loading})
+    def scene(
+        title: str, indenter: Paraboloid | FlatPunch, force: str, motion: str, *ends: Any
+    ) -> Scene:
+        """Create a scene that prescribes a force, a motion and the force again at these ends."""
+        led = (
+            LoadStep.model_validate({name: end, "increments": count})
+            for name, end, count in zip((force, motion, force), ends, (2, 4, 3), strict=True)
+        )
+        held = () if force == "normal_force" else (pressing(1),)
+        return frictional(title, indenter, NU_ZERO).model_copy(update={"loading": (*held, *led)})
 
     scenes = {
         "pressed": scene(
             "Ball led by force, approach and force",
             ball,
-            LoadStep(normal_force=0.5 * NORMAL_FORCE, increments=2),
-            LoadStep(approach=HERTZ.approach, increments=4),
-            LoadStep(normal_force=0.7 * NORMAL_FORCE, increments=3),
+            "normal_force",
+            "approach",
+            0.5 * NORMAL_FORCE,
+            HERTZ.approach,
+            0.7 * NORMAL_FORCE,
         ),
         "pushed": scene(
             "Ball led by push, shift and push",
             ball,
-            held,
-            LoadStep(tangential_force=(0.4 * limit, 0.0), increments=2),
-            LoadStep(tangential_shift=(0.5 * SLIDING_SHIFT, 0.0), increments=4),
-            LoadStep(tangential_force=(0.1 * limit, 0.0), increments=3),
+            "tangential_force",
+            "tangential_shift",
+            (0.4 * limit, 0.0),
+            (0.5 * SLIDING_SHIFT, 0.0),
+            (0.1 * limit, 0.0),
         ),
         "twisted": scene(
             "Ball led by torque, twist and torque",
             ball,
-            held,
-            LoadStep(torque=0.4 * SLIDING_TORQUE, increments=2),
-            LoadStep(twist=0.5 * LARGEST.twist, increments=4),
-            LoadStep(torque=0.1 * SLIDING_TORQUE, increments=3),
+            "torque",
+            "twist",
+            0.4 * SLIDING_TORQUE,
+            0.5 * LARGEST.twist,
+            0.1 * SLIDING_TORQUE,
         ),
         "tilted": scene(
             "Punch led by moment, tilt and moment",
             punch,
-            held,
-            LoadStep(moment=(0.5 * arm * NORMAL_FORCE, arm * NORMAL_FORCE), increments=2),
-            LoadStep(tilt=(slope, 0.5 * slope), increments=4),
-            LoadStep(moment=(-arm * NORMAL_FORCE, 0.0), increments=3),
+            "moment",
+            "tilt",
+            (0.5 * moment, moment),
+            (slope, 0.5 * slope),
+            (-moment, 0.0),
         ),
     }
     grid = square_grid(48 * 2**level, 1.3 * HERTZ.contact_radius)
@@ -736,36 +755,38 @@ def led_histories(level: Level = Level.QUICK) -> Case:
         "shift, by torques and a twist; a flat punch is loaded by moments and a tilt. A step "
         "with another kind of control starts at the end of the preceding step and is linear, in "
         "the number of increments of the scene.",
-        runs=runs,
-        quantities=(
-            *(
-                Quantity(
-                    "off_the_way",
-                    "largest distance of the prescribed quantity from the linear "
-                    "ramp of its step, over the larger of its ends",
-                    "",
-                    run.label,
-                    partial(off_the_way, run.scene),
-                    linear,
-                    Required(
-                        1e-6, "forces are met to the tolerance of the solver, motions exactly"
-                    ),
-                    1.0,
-                    "1",
-                )
-                for run in runs
-            ),
-            *(
-                Quantity(
-                    "increments",
-                    "increments of all steps",
-                    "",
-                    run.label,
-                    lambda result: float(len(result.increments)),
-                    Reference(named(run), linear.kind, "the scene prescribes them"),
-                    Required(1e-9, "a number of increments is met or not"),
-                )
-                for run in runs
+        Judged(
+            runs=runs,
+            quantities=(
+                *(
+                    Quantity(
+                        "off_the_way",
+                        "largest distance of the prescribed quantity from the linear "
+                        "ramp of its step, over the larger of its ends",
+                        "",
+                        run.label,
+                        partial(off_the_way, run.scene),
+                        linear,
+                        Required(
+                            1e-6, "forces are met to the tolerance of the solver, motions exactly"
+                        ),
+                        1.0,
+                        "1",
+                    )
+                    for run in runs
+                ),
+                *(
+                    Quantity(
+                        "increments",
+                        "increments of all steps",
+                        "",
+                        run.label,
+                        lambda result: float(len(result.increments)),
+                        Reference(named(run), linear.kind, "the scene prescribes them"),
+                        Required(1e-9, "a number of increments is met or not"),
+                    )
+                    for run in runs
+                ),
             ),
         ),
         equations=(r"c(t) = c_0 + (c_1 - c_0)\, t,\quad 0 \le t \le 1",),

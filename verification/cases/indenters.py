@@ -25,7 +25,6 @@ from verification.judging.case import (
     Quantity,
     Required,
     Run,
-    compare_runs,
 )
 from verification.judging.declared_case import (
     APPROACH,
@@ -49,6 +48,7 @@ from verification.judging.declared_case import (
     Within,
     because,
     case,
+    compared,
     error_norm,
     finest,
     judged,
@@ -67,6 +67,7 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.field_errors import relative_pressure_error
+from verification.norms import max_norm
 from verification.problems.indentation import (
     BALL,
     BARREL,
@@ -412,7 +413,7 @@ def fem_hertz(level: Level = Level.QUICK) -> Case:
         judged(meshes, ON_MESHES),
         improved,
         springs,
-        quantities=(law,),
+        Judged(quantities=(law,)),
         charts=(
             profile(
                 meshes,
@@ -512,7 +513,7 @@ def _stiffness_difference(one: Any, other: Any) -> float:
         end = result.steps[-1]
         return np.array([end.normal_force / end.approach, *(end.moment / end.tilt)])
 
-    return float(np.max(np.abs(of(one) / of(other) - 1)))
+    return max_norm(of(one) / of(other) - 1)
 
 
 def _slope(along: int, axis: str, other: str) -> Observable:
@@ -588,19 +589,16 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         "direction oblique to the grid. For eccentricities up to a third of the radius the whole "
         "face is in contact, and the solution for a plane of displacements has a closed form.",
         judged(grids, rows),
-        runs=(Run("given tilt", tilted, finest.grid),),
-        quantities=(
-            compare_runs(
-                "both_controls",
-                "prescribed moment against prescribed tilt, by the stiffnesses: "
-                "load over approach and moment over tilt",
-                (finest.label, "given tilt"),
-                _stiffness_difference,
-                1e-6,
-                "the whole face is in contact: the response is linear to the "
-                "tolerance of the solver",
-                "linearity of a contact that does not change",
-            ),
+        compared(
+            "both_controls",
+            "prescribed moment against prescribed tilt, by the stiffnesses: "
+            "load over approach and moment over tilt",
+            finest,
+            Run("given tilt", tilted, finest.grid),
+            _stiffness_difference,
+            1e-6,
+            "the whole face is in contact: the response is linear to the tolerance of the solver",
+            "linearity of a contact that does not change",
         ),
         no_order="first order in the cell side with scatter: the division of cells by the circle "
         "differs from grid to grid",
@@ -625,12 +623,12 @@ def _shifted_field_difference(beside: Result, centred: Result) -> float:
     """
     one, other = beside.steps[-1], centred.steps[-1]
     pressure = np.roll(other.pressure, MOVED, axis=(0, 1))
-    worst = np.max(np.abs(one.pressure - pressure)) / other.peak_pressure
+    worst = max_norm(one.pressure - pressure) / other.peak_pressure
     if one.shear is None or other.shear is None:
         return float(worst)
     shear = np.roll(other.shear, MOVED, axis=(1, 2))
     limit = FRICTION * other.peak_pressure
-    return float(np.maximum(worst, np.max(np.abs(one.shear - shear)) / limit))
+    return float(np.maximum(worst, max_norm(one.shear - shear) / limit))
 
 
 def eccentric_ball(level: Level = Level.QUICK) -> Case:
@@ -650,18 +648,21 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
         increments=increments,
     )
-    steel, unlike = (paraboloid(STEEL), STEEL), (rigid_ball(), SUBSTRATE)
-    runs = tuple(
-        Run(label, pressed(title, *bodies, step, friction=FRICTION), grid)
-        for label, title, bodies, step in (
-            ("centred", "Ball pressed at its tip", steel, pressing(increments)),
-            ("beside", "Ball pressed beside its tip", steel, forced),
-            ("centred, unlike bodies", "Rigid ball", unlike, pressing(increments)),
-            ("beside, unlike bodies", "Rigid ball beside its tip", unlike, forced),
+    pairs = {
+        suffix: [
+            Run(f"{label}{suffix}", pressed(title, *bodies, step, friction=FRICTION), grid)
+            for label, title, step in (
+                ("beside", f"{ball} beside its tip", forced),
+                ("centred", f"{ball} at its tip", pressing(increments)),
+            )
+        ]
+        for suffix, ball, bodies in (
+            ("", "Ball pressed", (paraboloid(STEEL), STEEL)),
+            (", unlike bodies", "Rigid ball", (rigid_ball(), SUBSTRATE)),
         )
-    )
+    }
 
-    beside = runs[1]
+    beside = pairs[""][0]
     problem = Problem(
         beside.scene,
         (SimpleNamespace(tilt=roll),),
@@ -677,33 +678,32 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         "contact, shifted by whole cells, so that the fields agree to the tolerance of the "
         "solver, also for coupled pressure and shear.",
         judged(ladder(problem, [beside]), [Within(slope, 1e-6, ROLLED) for slope in SLOPES]),
-        runs=runs,
-        quantities=(
-            *(
-                compare_runs(
-                    f"fields{suffix}",
-                    "largest difference of pressure and shear, shifted, over "
-                    "the largest pressure and the largest friction limit",
-                    (f"beside{suffix}", f"centred{suffix}"),
-                    _shifted_field_difference,
-                    1e-5,
-                    ROLLED,
-                    source,
-                )
-                for suffix in ("", ", unlike bodies")
-            ),
-            compare_runs(
-                "approach",
-                "approach at the origin plus the rise of the tip by rolling, against "
-                "the approach of the centred ball",
-                ("beside", "centred"),
-                lambda beside, centred: abs(
-                    (beside.steps[-1].approach + drop) / centred.steps[-1].approach - 1
-                ),
-                1e-6,
+        *(
+            compared(
+                f"fields{suffix}",
+                "largest difference of pressure and shear, shifted, over "
+                "the largest pressure and the largest friction limit",
+                pair[0],
+                pair[1],
+                _shifted_field_difference,
+                1e-5,
                 ROLLED,
                 source,
+            )
+            for suffix, pair in pairs.items()
+        ),
+        compared(
+            "approach",
+            "approach at the origin plus the rise of the tip by rolling, against "
+            "the approach of the centred ball",
+            beside,
+            pairs[""][1],
+            lambda beside, centred: abs(
+                (beside.steps[-1].approach + drop) / centred.steps[-1].approach - 1
             ),
+            1e-6,
+            ROLLED,
+            source,
         ),
         equations=(
             r"\frac{x^2}{2R} - \varphi x = \frac{(x - R\varphi)^2}{2R} - \frac{R\varphi^2}{2}",

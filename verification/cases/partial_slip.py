@@ -207,17 +207,14 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
     ]
 
 
-def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
+def near_sliding(level: Level = Level.QUICK) -> Case:
     """Create the verification case of tangential forces just below the friction limit, and of gross
     slip.
 
     For ν = 0 the shift is compared with the closed form. In gross slip under a prescribed shift the
     tangential force must equal the friction limit µW.
-
-    level  amount of computation: quick, standard or full
-    cells  number of cells per side; 0: that of the level
     """
-    cells = cells or (64 if level is Level.QUICK else 128)
+    cells = 64 if level is Level.QUICK else 128
     materials = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
     of_step = (
         Within(

@@ -39,6 +39,7 @@ from verification.closed_forms.huber_stress import (
 from verification.judging.case import Case, Level, Quantity, Required, computed_error
 from verification.judging.declared_case import (
     RINGS_SHOWN,
+    Judged,
     Observable,
     Within,
     case,
@@ -46,6 +47,7 @@ from verification.judging.declared_case import (
     judged,
     on_radii,
 )
+from verification.norms import max_norm
 from verification.problems.cattaneo_mindlin import TWISTED, sheared
 from verification.problems.problem import (
     FRICTION,
@@ -93,7 +95,7 @@ def _largest_over_peak(error: Any) -> float:
 
     error  differences of stress components [force/length²]
     """
-    return float(np.max(np.abs(error)) / P0)
+    return max_norm(error) / P0
 
 
 @cache
@@ -143,7 +145,7 @@ def _interface_jump() -> float:
     field = _coated_stress()
     u = field.displacement
     jump = _largest_over_peak((field.stress[0] - field.stress[1])[[ZZ, YZ, XZ]])
-    return worst(jump, np.max(np.abs(u[0] - u[1])) / np.max(np.abs(u)))
+    return worst(jump, max_norm(u[0] - u[1]) / max_norm(u))
 
 
 def _in_plane_jump() -> float:
@@ -185,43 +187,45 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         "act on a steel half-space. The stress below the contact is compared with Hamilton's. "
         "The same tractions on a coated body test the components that are continuous at the "
         "interface, the jump of the others, and the tractions at the surface.",
-        quantities=(
-            computed_error(
-                "sliding_below",
-                "largest error of the six stress components below pressure and shear, at depths "
-                "of 0.2 a to 2 a over the whole window, at 0.1 a up to 0.5 a, over p₀",
-                cells,
-                _sliding_stress_error,
-                closed_form(0.0, "Hamilton 1983", 1.0),
-                closed,
-                "p₀",
-            ),
-            computed_error(
-                "interface_continuity",
-                "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its largest value",
-                coating,
-                _interface_jump,
-                identity(0.0, "displacement and traction are continuous"),
-                law,
-            ),
-            computed_error(
-                "in_plane_jump",
-                "σ_xx above minus the value that the strains below require, over p₀",
-                coating,
-                _in_plane_jump,
-                identity(0.0, "in-plane strains are continuous"),
-                law,
-                "p₀",
-            ),
-            computed_error(
-                "surface_tractions",
-                "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
-                coating,
-                _surface_traction_error,
-                identity(0.0, "the boundary condition"),
-                law,
-                "p₀",
-            ),
+        Judged(
+            quantities=(
+                computed_error(
+                    "sliding_below",
+                    "largest error of the six stress components below pressure and shear, at "
+                    "depths of 0.2 a to 2 a over the whole window, at 0.1 a up to 0.5 a, over p₀",
+                    cells,
+                    _sliding_stress_error,
+                    closed_form(0.0, "Hamilton 1983", 1.0),
+                    closed,
+                    "p₀",
+                ),
+                computed_error(
+                    "interface_continuity",
+                    "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its largest value",
+                    coating,
+                    _interface_jump,
+                    identity(0.0, "displacement and traction are continuous"),
+                    law,
+                ),
+                computed_error(
+                    "in_plane_jump",
+                    "σ_xx above minus the value that the strains below require, over p₀",
+                    coating,
+                    _in_plane_jump,
+                    identity(0.0, "in-plane strains are continuous"),
+                    law,
+                    "p₀",
+                ),
+                computed_error(
+                    "surface_tractions",
+                    "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
+                    coating,
+                    _surface_traction_error,
+                    identity(0.0, "the boundary condition"),
+                    law,
+                    "p₀",
+                ),
+            )
         ),
         equations=(HAMILTON_EQUATION,),
         no_order="judged on one grid",
@@ -417,49 +421,51 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
         "general position relative to the contact, and the shear is 0.1 of the pressure: tensile "
         "stress at the trailing edge. With cell means of Hertz's pressure: stress on the line "
         "through the edge, and all components near and below the edge.",
-        quantities=(
-            *(
-                Quantity(
-                    f"trailing_edge_{cells}",
-                    "σ₁ on the trailing edge over p₀",
-                    "",
-                    f"{cells}x{cells}",
-                    partial(
-                        _trailing_edge_tension_on_cells,
-                        Body(material=STEEL),
-                        paraboloid(STEEL),
-                        cells,
-                    ),
-                    closed_form(exact, hamilton),
-                    Required(allowed, required),
-                    exact,
-                    "its value",
-                    runs=(),
-                )
-                for cells, allowed in ((128, 5e-3), (256, 2e-3))
-            ),
-            *(fitted[:2] if quick else fitted),
-            *(
-                Quantity(
-                    f"coated_{ratio:g}_{thickness:g}",
-                    "σ₁ on the trailing edge over Hertz's p₀",
-                    "",
-                    "128x128",
-                    partial(
-                        _trailing_edge_tension_on_cells,
-                        coated(film(ratio, thickness)),
-                        rigid_ball(),
-                        128,
-                    ),
-                    Reference(value, ReferenceKind.SEMI_CLOSED, BY_RAYS, 1e-6),
-                    Required(1e-2, required),
-                    value,
-                    "its value",
-                    runs=(),
-                )
-                for (ratio, thickness), value in COATED.items()
-                if thickness < 1 or not quick
-            ),
+        Judged(
+            quantities=(
+                *(
+                    Quantity(
+                        f"trailing_edge_{cells}",
+                        "σ₁ on the trailing edge over p₀",
+                        "",
+                        f"{cells}x{cells}",
+                        partial(
+                            _trailing_edge_tension_on_cells,
+                            Body(material=STEEL),
+                            paraboloid(STEEL),
+                            cells,
+                        ),
+                        closed_form(exact, hamilton),
+                        Required(allowed, required),
+                        exact,
+                        "its value",
+                        runs=(),
+                    )
+                    for cells, allowed in ((128, 5e-3), (256, 2e-3))
+                ),
+                *(fitted[:2] if quick else fitted),
+                *(
+                    Quantity(
+                        f"coated_{ratio:g}_{thickness:g}",
+                        "σ₁ on the trailing edge over Hertz's p₀",
+                        "",
+                        "128x128",
+                        partial(
+                            _trailing_edge_tension_on_cells,
+                            coated(film(ratio, thickness)),
+                            rigid_ball(),
+                            128,
+                        ),
+                        Reference(value, ReferenceKind.SEMI_CLOSED, BY_RAYS, 1e-6),
+                        Required(1e-2, required),
+                        value,
+                        "its value",
+                        runs=(),
+                    )
+                    for (ratio, thickness), value in COATED.items()
+                    if thickness < 1 or not quick
+                ),
+            )
         ),
         equations=(
             HAMILTON_EQUATION,

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -32,7 +31,6 @@ from verification.closed_forms.torsion import CoatedTorsion, one_layer
 from verification.judging.case import (
     OVER_ANGLES,
     Case,
-    Followed,
     Level,
 )
 from verification.judging.declared_case import (
@@ -63,11 +61,12 @@ from verification.judging.declared_case import (
     with_edge_at,
 )
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.norms import shear_error
+from verification.norms import max_norm, shear_error
 from verification.problems.cattaneo_mindlin import (
     LED,
     OVER_LIMIT,
     OVER_TWIST,
+    SLIDING_TORQUE,
     STUCK,
     TORQUE_PARTS,
     TORSION_LOOP,
@@ -149,7 +148,7 @@ def _largest_shear_error(result: Any, step: int, problem: Problem) -> float:
     scale = problem.scales.get(OVER_LIMIT) or float(known.shear(problem.radius / 2))
     inside = end.radii < WITHIN * problem.radius
     off = end.shear_circumferential[inside] - known.shear(end.radii[inside])
-    return float(np.max(np.abs(off))) / scale
+    return max_norm(off) / scale
 
 
 def _mean_shear_error(result: Any, step: int, problem: Problem) -> float:
@@ -170,9 +169,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
     punches = on_cells(STUCK, finest, 2.2, of="stuck punch")
-    shear = error_norm(
-        "shear", "Σ|q - q_exact| / Σµp{when}", _shear_on_cells, "Σµp", of=Followed.SHEAR
-    )
+    shear = error_norm("shear", "Σ|q - q_exact| / Σµp{when}", _shear_on_cells, "Σµp", of="shear")
     shears = {step: shear.at(step, part, SLIDING) for step, part in TORQUE_PARTS.items()}
     of_ball = (
         *at_stops(
@@ -384,12 +381,6 @@ def _exact_rows(*observables: Observable, error: float = ROUNDING) -> Iterator[W
     return (Within(w, 2 * error, "twice the uncertainty of the reference") for w in observables)
 
 
-def _observables_at_parts(
-    parts: dict[int, float], *observables: Observable
-) -> tuple[Observable, ...]:
-    return tuple(what.at(*stop, SLIDING) for what in observables for stop in parts.items())
-
-
 def radial_torsion(level: Level = Level.QUICK) -> Case:
     """Create the verification case of torsion by the radial solver.
 
@@ -403,9 +394,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         "µp_H, or the shear at half the radius of the punch",
     )
     stick = replace(STICK_RADIUS, over="")
-    of_coated = _exact_rows(
-        *_observables_at_parts(COATED_PARTS, TWIST, stick), error=SEMI_CLOSED_ERROR
-    )
+    of_coated = _exact_rows(TWIST, stick, error=SEMI_CLOSED_ERROR)
     # The area under the virgin curve has a relative uncertainty of 1e-10, the energy twice that.
     of_loop = (*_exact_rows(*LOOP_TWISTS), *_exact_rows(ENERGY_PER_CYCLE, error=2e-10))
     parts = ", ".join(f"{part:g}" for part in TORQUE_PARTS.values())
@@ -418,12 +407,12 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         "energies without increments.",
         judged(
             on_radii(TWISTED, "ball"),
-            [*_exact_rows(*_observables_at_parts(TORQUE_PARTS, TWIST, stick, shear))],
+            at_stops(TORQUE_PARTS, SLIDING, *_exact_rows(TWIST, stick, shear)),
         ),
         judged(on_radii(LED, "given twist"), [*_exact_rows(TORQUE)]),
         judged(on_radii(STUCK, "stuck punch"), [*_exact_rows(TWIST, shear)]),
         judged(on_radii(TORSION_LOOP, "to and fro"), of_loop),
-        judged(on_radii(twisted_coated(), "coated"), [*of_coated]),
+        judged(on_radii(twisted_coated(), "coated"), at_stops(COATED_PARTS, SLIDING, *of_coated)),
         limits=(
             "The friction limit of the coated reference uses the response of layers to pressure "
             "that the solver uses as well; the torsion of the reference does not.",
@@ -433,14 +422,13 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     )
 
 
-TURN = 3 * pi / 16 * FRICTION_LIMIT * HERTZ.contact_radius  # torque of gross slip of equal bodies
 SCALARS = ("approach", "contact_radius", "stick_radius", "dissipated_energy", "elastic_energy")
 MOTIONS = ("tangential_shift", "twist")
 TURNING = ((0.6, 0.0), (0.0, 0.6))
 
 
 def _torque_step(share: float, increments: int, **more: Any) -> LoadStep:
-    return LoadStep(torque=share * TURN, increments=increments, **more)
+    return LoadStep(torque=share * SLIDING_TORQUE, increments=increments, **more)
 
 
 def _force_step(x: float, y: float, increments: int) -> LoadStep:

@@ -257,10 +257,7 @@ class TangentialHistory:
         """Compute the shear on the lower body at distance r from the axis after the load history
         [force/length²].
         """
-        total = np.zeros_like(np.asarray(r, dtype=float))
-        for scale, state in self.branches():
-            total = total + scale * state.shear(r)
-        return total
+        return np.asarray(sum(scale * state.shear(r) for scale, state in self.branches()))
 
     def slip(self, r: ArrayLike) -> Array:
         """Compute the slip of the lower surface relative to the indenter at distance r from the
@@ -268,10 +265,7 @@ class TangentialHistory:
 
         r must not exceed the contact radius. The formula holds for ν = 0.
         """
-        total = np.zeros_like(np.asarray(r, dtype=float))
-        for scale, state in self.branches():
-            total = total + scale * state.slip(r)
-        return total
+        return np.asarray(sum(scale * state.slip(r) for scale, state in self.branches()))
 
     @property
     def stick_radius(self) -> float:

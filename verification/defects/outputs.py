@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -68,14 +68,7 @@ def _error_floor_factor(result: Any) -> float:
 
 def _last_row_missing(result: Any) -> Any:
     def shortened(increment: Any) -> Any:
-        return replace(
-            increment,
-            **{
-                field.name: value[..., :-1]
-                for field in fields(increment)
-                if np.ndim(value := getattr(increment, field.name)) and field.name == "pressure"
-            },
-        )
+        return replace(increment, pressure=increment.pressure[..., :-1])
 
     return replace(result, increments=tuple(map(shortened, result.increments)))
 

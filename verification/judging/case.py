@@ -8,14 +8,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from enum import IntEnum, StrEnum
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
 from verification.convergence.observed_order import ORDER_WIDTH
 from verification.observed.ring_errors import judged_within
-from verification.problems.problem import EXACT, NUMERICAL, Reference, ReferenceKind
+from verification.problems.problem import EXACT, NUMERICAL, Reference
 from verification.solver import Method, Solver
 
 if TYPE_CHECKING:
@@ -327,30 +327,6 @@ def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElem
     )
 
 
-class Followed(StrEnum):
-    """Quantities of a contact for which an order of convergence can be determined from refinement
-    levels.
-    """
-
-    PRESSURE = "pressure"
-    PEAK_PRESSURE = "peak pressure"
-    APPROACH = "approach"
-    CONTACT_RADIUS = "contact radius"
-    SHEAR = "shear"
-    SHIFT = "tangential shift"
-    TWIST = "twist"
-    ENERGY = "dissipated energy"
-
-
-class Refinement(StrEnum):
-    """Discretisation parameter that a sequence of runs refines: the mesh or the number of
-    increments.
-    """
-
-    MESH = "mesh"
-    INCREMENTS = "increments"
-
-
 @dataclass(frozen=True)
 class NotYetAsymptotic:
     """Allowance for an order of convergence that is observed on levels too coarse for the theory.
@@ -393,14 +369,14 @@ class Order:
     """
 
     name: str
-    of: Followed
+    of: str
     meaning: str
     levels: tuple[str, ...]
     error: Callable[..., float]
     expected: float
     because: str
     not_yet: NotYetAsymptotic | None = None
-    refined: Refinement = Refinement.MESH
+    refined: str = "mesh"
     size: Callable[[Any], float] | None = None
     apart: int = 0
 
@@ -496,47 +472,6 @@ class Quantity:
     def labels(self) -> tuple[str, ...]:
         """Labels of the runs on whose results the number is measured; empty without a run."""
         return (self.run,) if self.runs is None else self.runs
-
-
-def compare_runs(
-    name: str,
-    meaning: str,
-    runs: tuple[str, str],
-    difference: Callable[[Any, Any], float],
-    allowed: float,
-    because: str,
-    source: str,
-    kind: ReferenceKind = ReferenceKind.IDENTITY,
-    uncertainty: float = 0.0,
-    coarse: str = "",
-) -> Quantity:
-    """Create the judged difference of two runs that must agree, because both describe one problem.
-
-    runs         labels of the two runs; the difference is relative to the second run
-    difference   function from both results to a dimensionless difference, 0 if they agree; it may
-                 be the error of a quantity that follows from both results
-    allowed      largest accepted difference
-    because      reason for this tolerance
-    source       source that predicts the difference 0
-    kind         kind of this source
-    uncertainty  standard uncertainty of the prediction, relative to the scale of the difference;
-                 that of another solver or refinement follows from a coarser solve if it is 0
-    coarse       label of this coarser solve; empty: the second run on half its cells
-    """
-    zero = Reference(0.0, kind, source, uncertainty)
-    return Quantity(
-        name,
-        meaning,
-        "",
-        " and ".join(runs),
-        difference,
-        zero,
-        Required(allowed, because),
-        1.0,
-        "the second run's",
-        runs=runs,
-        coarse=coarse,
-    )
 
 
 def computed_error(

@@ -27,7 +27,6 @@ from verification.judging.case import (
     AnyRun,
     Case,
     Derived,
-    Followed,
     Level,
     NotYetAsymptotic,
     Order,
@@ -36,7 +35,6 @@ from verification.judging.case import (
     Required,
     Run,
     SectionRun,
-    compare_runs,
     per_radius,
 )
 from verification.observed.ring_errors import central_pressure
@@ -456,7 +454,7 @@ class Observable:
     value: Callable[[Any], float] | None
     over: str = ""
     over_is: str = ""
-    of: Followed | None = None
+    of: str = ""
     step: int = -1
     label: str = ""
     source: str = ""
@@ -562,7 +560,7 @@ def number(
     quantity: str = "",
     exact: str = "",
     over: str = "",
-    of: Followed | None = None,
+    of: str = "",
     source: str = "",
 ) -> Observable:
     """Create an observable for a scalar that all solvers return, such as the approach, at a step's
@@ -594,7 +592,7 @@ def number(
         lambda end: float(getattr(end, exact or name)),
         over,
         of=of,
-        label="" if of is None else of.value,
+        label=of,
         source=source,
         scalar=(known, part),
     )
@@ -608,7 +606,7 @@ def error_norm(
     *,
     unit: str = "",
     over: str = "",
-    of: Followed | None = None,
+    of: str = "",
     norm: str = "",
     source: str = "",
 ) -> Observable:
@@ -627,17 +625,15 @@ def error_norm(
     norm     name of the norm in charts
     source   source of the exact field, if it differs from the source of the problem
     """
-    label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
+    label = f"{of} ({norm})" if norm else of
     return Observable(
         name, meaning, unit, measure, None, over, over_is, of, label=label, source=source
     )
 
 
-APPROACH = number("approach", "approach of the bodies since first touch", of=Followed.APPROACH)
-PEAK_PRESSURE = number(
-    "peak_pressure", "largest pressure of any {point}", of=Followed.PEAK_PRESSURE
-)
-CONTACT_RADIUS = number("contact_radius", "{edge}", of=Followed.CONTACT_RADIUS)
+APPROACH = number("approach", "approach of the bodies since first touch", of="approach")
+PEAK_PRESSURE = number("peak_pressure", "largest pressure of any {point}", of="peak pressure")
+CONTACT_RADIUS = number("contact_radius", "{edge}", of="contact radius")
 FORCE = number("normal_force", "force that the approach takes", exact="load")
 CENTRAL_PRESSURE = Observable(
     "central_pressure",
@@ -645,7 +641,7 @@ CENTRAL_PRESSURE = Observable(
     "Pa",
     lambda result, step, _: central_pressure(result, step),
     lambda exact: float(exact.pressure(0.0)),
-    of=Followed.PEAK_PRESSURE,
+    of="peak pressure",
     label="central pressure",
 )
 SHIFT = number(
@@ -653,7 +649,7 @@ SHIFT = number(
     "tangential shift{when}",
     quantity="tangential_shift_x",
     over=OVER_SLIDING_SHIFT,
-    of=Followed.SHIFT,
+    of="tangential shift",
 )
 STICK_RADIUS = number("stick_radius", "{stick}{when}", over=OVER_RADIUS)
 ENERGY = number(
@@ -661,23 +657,23 @@ ENERGY = number(
     "energy dissipated{when}",
     quantity="dissipated_energy",
     exact="dissipated_energy",
-    of=Followed.ENERGY,
+    of="dissipated energy",
     source="Mindlin and Deresiewicz 1953",
 )
 WORK = replace(ENERGY, over=OVER_SLIDING_WORK)
-TWIST = number("twist", "twist{when}", of=Followed.TWIST)
+TWIST = number("twist", "twist{when}", of="twist")
 PRESSURE_L1 = error_norm(
     "pressure",
     "pressure over the {domain}, L1",
     field_errors.pressure_l1,
-    of=Followed.PRESSURE,
+    of="pressure",
     norm="L1",
 )
 PRESSURE_L2 = error_norm(
     "pressure",
     "pressure over the {domain}, L2",
     field_errors.pressure_l2,
-    of=Followed.PRESSURE,
+    of="pressure",
     norm="L2",
 )
 PRESSURE_WITHIN = error_norm(
@@ -691,7 +687,7 @@ SHEAR = error_norm(
     "{sum}|q - q_exact| / {sum}µp{when}",
     field_errors.shear_error,
     "Σµp",
-    of=Followed.SHEAR,
+    of="shear",
 )
 SHEAR_AROUND = error_norm(
     "shear",
@@ -814,7 +810,7 @@ class Judged:
     equations   governing equations of the reference, in LaTeX
     """
 
-    runs: tuple[AnyRun, ...]
+    runs: tuple[AnyRun, ...] = ()
     quantities: tuple[Quantity, ...] = ()
     orders: tuple[Order, ...] = ()
     equations: tuple[str, ...] = ()
@@ -857,16 +853,35 @@ def compared(
     source: str,
     kind: ReferenceKind = ReferenceKind.IDENTITY,
     uncertainty: float = 0.0,
+    coarse: str = "",
 ) -> Judged:
-    """Create two runs that must agree, and their judged difference (see `compare_runs`).
+    """Create two runs that must agree, because both describe one problem, with their difference.
 
-    one, other  runs; the difference is relative to the second
+    one, other   runs; the difference is relative to the second
+    difference   function from both results to a dimensionless difference, 0 if they agree; it may
+                 be the error of a quantity that follows from both results
+    allowed      largest accepted difference
+    because      reason for this tolerance
+    source       source that predicts the difference 0
+    kind         kind of this source
+    uncertainty  standard uncertainty of the prediction, relative to the scale of the difference;
+                 that of another solver or refinement follows from a coarser solve if it is 0
+    coarse       label of this coarser solve; empty: the second run on half its cells
     """
-    labels = one.label, other.label
-    row = compare_runs(
-        name, meaning, labels, difference, allowed, because, source, kind, uncertainty
+    quantity = Quantity(
+        name,
+        meaning,
+        "",
+        f"{one.label} and {other.label}",
+        difference,
+        Reference(0.0, kind, source, uncertainty),
+        Required(allowed, because),
+        1.0,
+        "the second run's",
+        runs=(one.label, other.label),
+        coarse=coarse,
     )
-    return Judged((one, other), (row,))
+    return Judged((one, other), (quantity,))
 
 
 def case(
@@ -874,40 +889,31 @@ def case(
     title: str,
     problem: str,
     *parts: Judged,
-    runs: tuple[AnyRun, ...] = (),
-    quantities: tuple[Quantity, ...] = (),
-    orders: tuple[Order, ...] = (),
     charts: Sequence[Drawing] = (),
-    limits: tuple[str, ...] = (),
     equations: tuple[str, ...] = (),
-    no_order: str = "",
-    shows: tuple[str, ...] = (),
+    **more: Any,
 ) -> Case:
-    """Create a verification case from expanded rows and from additional quantities.
+    """Create a verification case from expanded rows and from additional runs and quantities.
 
-    name         identifier for commands and files
-    title        title in reports
-    problem      description of the problem and of the source of its answer
-    parts        expanded rows on refinement levels; several parts may share runs
-    runs         further runs; likewise further quantities and orders
-    charts       functions from the results to one chart each
-    limits       limits of the conclusions from this case
-    equations    further governing equations, in LaTeX
-    no_order     reason for which no order of convergence is judged
-    shows        equations, figures and statements of `cases.requirements` that the case shows
+    name       identifier for commands and files
+    title      title in reports
+    problem    description of the problem and of the source of its answer
+    parts      expanded rows on refinement levels, and what is judged besides; several parts may
+               share runs
+    charts     functions from the results to one chart each
+    equations  further governing equations, in LaTeX
+    more       limits, reason for no order, and requirements of the `Case`
     """
     return Case(
-        name=name,
-        title=title,
-        problem=problem,
-        runs=tuple(dict.fromkeys((*(run for part in parts for run in part.runs), *runs))),
-        quantities=(*(q for part in parts for q in part.quantities), *quantities),
-        orders=(*(order for part in parts for order in part.orders), *orders),
-        charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
-        limits=limits,
+        name,
+        title,
+        problem,
+        tuple(dict.fromkeys(run for part in parts for run in part.runs)),
+        tuple(quantity for part in parts for quantity in part.quantities),
+        tuple(order for part in parts for order in part.orders),
+        (lambda results: tuple(draw(results) for draw in charts)) if charts else None,
         equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),
-        no_order=no_order,
-        shows=shows,
+        **more,
     )
 
 
@@ -968,7 +974,6 @@ def _quantity(
 
 def _order(row: Falls, ladder: RefinementLevels) -> Order:
     what = row.what
-    assert what.of is not None
     return Order(
         name=f"order_of_{what.name}",
         of=what.of,

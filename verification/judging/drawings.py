@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field
 from semi_analytical.grid import SurfaceGrid
 from verification.convergence.observed_order import (
     ErrorLine,
@@ -82,47 +82,23 @@ def _confidence_band(line: ErrorLine, ends: Field, series: int) -> Curve:
 ALONG_X = 1.15  # contact radii to each side of the axis
 
 
-@dataclass(frozen=True)
 class Section:
     """Row of cells of a surface grid nearest to y = 0, along which a profile chart shows fields.
 
     The row extends to 1.15 contact radii on both sides of the axis.
 
-    grid    surface grid
-    radius  contact radius [length]
+    x  coordinates x of the cell centres along the row [length]
+    y  coordinate y of the row: half a cell for an even number of cells, else 0 [length]
     """
 
-    grid: SurfaceGrid
-    radius: float
-
-    @property
-    def _section_row(self) -> int:
-        return self.grid.cells[1] // 2
-
-    @property
-    def _plotted_cells(self) -> Mask:
-        return np.asarray(np.abs(self.grid.x) <= ALONG_X * self.radius)
-
-    @property
-    def x(self) -> Field:
-        """x coordinates of the cell centres along the row [length]."""
-        return np.asarray(self.grid.x[self._plotted_cells])
-
-    @property
-    def y(self) -> float:
-        """y coordinate of the row of cells [length]: half a cell for an even number of cells, else
-        0."""
-        return float(self.grid.y[self._section_row])
-
-    @property
-    def r(self) -> Field:
-        """Distances of the cell centres of the row from the axis of the contact, √(x² + y²)
-        [length]."""
-        return np.asarray(np.hypot(self.x, self.y))
+    def __init__(self, grid: SurfaceGrid, radius: float) -> None:
+        self._cells = np.abs(grid.x) <= ALONG_X * radius, grid.cells[1] // 2
+        columns, row = self._cells
+        self.x, self.y = grid.x[columns], float(grid.y[row])
 
     def of(self, field: Field) -> Field:
         """Return the values of a surface field (nx, ny) at the cells of the row."""
-        return np.asarray(field[self._plotted_cells, self._section_row])
+        return np.asarray(field[self._cells])
 
 
 # Number of points of an exact profile in a chart.

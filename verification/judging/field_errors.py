@@ -15,7 +15,7 @@ from scipy.ndimage import laplace
 
 from contact_scene.array_types import Field, Mask
 from verification import norms
-from verification.norms import cell_means
+from verification.norms import cell_means, max_norm
 from verification.observed import ring_errors
 from verification.observed.ring_errors import (
     along_radii,
@@ -108,7 +108,7 @@ def relative_pressure_error(inner: float, outer: float) -> Callable[[Any, int, P
         part = np.hypot(x, y) / problem.radius
         judged = (part >= inner) & (part < outer)
         exact = problem.on_surface(problem.ends[step].pressure, x[judged], y[judged])
-        return float(np.max(np.abs(end.pressure[judged] / exact - 1)))
+        return max_norm(end.pressure[judged] / exact - 1)
 
     return measure
 
@@ -129,8 +129,7 @@ def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
     tabulated = getattr(exact, "radii", None)
     r = end.radii if tabulated is None else tabulated
     found = end.pressure if tabulated is None else at_radii(end, end.pressure, r)
-    error = np.abs(found - exact.pressure(r))[r <= within]
-    return float(np.max(error) / problem.scale(OVER_PEAK))
+    return max_norm((found - exact.pressure(r))[r <= within]) / problem.scale(OVER_PEAK)
 
 
 def shear_error(result: Any, step: int, problem: Problem) -> float:
@@ -190,8 +189,8 @@ def shear_around_error(result: Any, step: int, problem: Problem) -> float:
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius)
     smooth = away_from_edges(end.radii, within, [exact.stick_radius], problem.radius)
-    error = np.abs(end.shear_circumferential[smooth] - exact.shear(end.radii[smooth]))
-    return float(np.max(error) / problem.scale(OVER_LIMIT))
+    error = end.shear_circumferential[smooth] - exact.shear(end.radii[smooth])
+    return max_norm(error) / problem.scale(OVER_LIMIT)
 
 
 # Range of radii at which tractions are compared with a table, over the contact radius. The upper
@@ -257,8 +256,8 @@ def tabulated_pressure_error(result: Any, _: int, problem: Problem) -> float:
     Radii next to the axis and to the contact edge are excluded. p_H is the Hertz peak pressure.
     """
     r = judged_radii(result, problem)
-    error = np.abs(pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None])
-    return float(np.max(error) / problem.scale(OVER_PEAK))
+    error = pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None]
+    return max_norm(error) / problem.scale(OVER_PEAK)
 
 
 def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, Mask]:

@@ -158,32 +158,34 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     """
     sizes, errors = _sizes_and_errors(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
-    observed = observed_order(sizes, errors) if known else None
-    difference = math.nan if observed is None else abs(observed.order - study.expected)
-    off = 0.0 if study.not_yet is None else study.not_yet.allowance
-    kept = False if observed is None else observed.keeps(study.expected, off)
-    allowance = (
-        ""
-        if study.not_yet is None
-        else f", here {study.not_yet.allowance:g}, as {study.not_yet.because}"
-    )
-    runs = (
-        ""
-        if study.apart or len(errors) == len(study.levels)
-        else (f", each the root mean square of {len(study.levels) / len(errors):.3g} runs")
-    )
+    off, allowance = 0.0, ""
+    if study.not_yet is not None:
+        off = study.not_yet.allowance
+        allowance = f", here {off:g}, as {study.not_yet.because}"
+    kept: bool | None = False
+    found: dict[str, Any] = {"value": None, "error": None, "allowed": ORDER_OFF}
+    if known:
+        observed = observed_order(sizes, errors)
+        kept = observed.keeps(study.expected, off)
+        found = {
+            "value": observed.order,
+            "error": abs(observed.order - study.expected),
+            "allowed": observed.may_be_off_by(study.expected, off),
+            "interval": observed.half_width,
+            "margin": observed.margin,
+        }
+    runs = ""
+    if not study.apart and len(errors) < len(study.levels):
+        runs = f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
     return Verdict(
         name=study.name,
         run=f"{study.levels[0]} to {study.levels[-1]}",
         runs=study.levels,
         meaning=f"order of convergence: {study.meaning}",
         unit="",
-        value=None if observed is None else observed.order,
         reference=study.expected,
         reference_kind=ReferenceKind.THEORY,
         source=study.because,
-        error=finite(difference),
-        allowed=ORDER_OFF if observed is None else observed.may_be_off_by(study.expected, off),
         scale=1.0,
         scale_name="1",
         tolerance_kind="order",
@@ -192,8 +194,6 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
         f"judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
         f"{len(errors)} {'changes' if study.apart else 'levels'}{runs}",
         status=Status.of(kept),
-        interval=None if observed is None else observed.half_width,
-        margin=None if observed is None else observed.margin,
         order=OrderRecord(
             of=study.of,
             meaning=study.meaning,
@@ -202,6 +202,7 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
             sizes=tuple(sizes),
             errors=tuple(errors) if known else (),
         ),
+        **found,
     )
 
 

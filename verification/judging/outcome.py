@@ -20,7 +20,6 @@ from verification.convergence.observed_order import (
     order_text,
 )
 from verification.exhibits.chart import NOT_FINITE, Chart, plain, value_text
-from verification.judging.case import Followed, Refinement
 from verification.solver import Method, Solver
 
 SHORT_COMMIT = 7
@@ -209,12 +208,12 @@ class OrderRecord(Description):
     levels.
     """
 
-    of: Followed
+    of: str
     meaning: str = ""
     """What was followed, exactly; empty in older records."""
 
     solver: Solver
-    refined: Refinement
+    refined: str
     sizes: tuple[float, ...]
     """Cell side, element side or part of a step of every level, coarse to fine."""
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_scene import IsotropicMaterial, Scene
+from contact_scene import Body, IsotropicMaterial, Scene
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -34,14 +34,13 @@ def dimensionless_parameters(scene: Scene, result: Result) -> dict[str, tuple[fl
     µ       coefficient of friction
     T/(µW)  largest tangential force over the friction limit; absent without a tangential force
     """
+    bodies = scene.indenter, scene.body
+    radius = max(increment.contact_radius for increment in result.increments)
+    layers = [(layer, _base_modulus(body)) for body in bodies for layer in body.layers]
     found = {
-        LAYER_THICKNESS: _thicknesses(scene, result),
-        LAYER_MODULUS: _modulus_ratios(scene),
-        POISSON_RATIO: (
-            material.poisson_ratio
-            for body in (scene.indenter, scene.body)
-            for material in body.elastic_materials
-        ),
+        LAYER_THICKNESS: (layer.thickness / radius for layer, _ in layers if radius > 0),
+        LAYER_MODULUS: (layer.material.young_modulus / base for layer, base in layers),
+        POISSON_RATIO: (each.poisson_ratio for body in bodies for each in body.elastic_materials),
         FRICTION: _friction_coefficients(scene),
         TANGENTIAL_FORCE: _friction_shares(scene, result),
     }
@@ -49,18 +48,9 @@ def dimensionless_parameters(scene: Scene, result: Result) -> dict[str, tuple[fl
     return {name: tuple(sorted(values)) for name, values in rounded.items() if values}
 
 
-def _thicknesses(scene: Scene, result: Result) -> Iterator[float]:
-    radius = max(increment.contact_radius for increment in result.increments)
-    if radius > 0:
-        for body in (scene.indenter, scene.body):
-            yield from (layer.thickness / radius for layer in body.layers)
-
-
-def _modulus_ratios(scene: Scene) -> Iterator[float]:
-    for body in (scene.indenter, scene.body):
-        below = body.material
-        substrate = below.young_modulus if isinstance(below, IsotropicMaterial) else np.inf
-        yield from (layer.material.young_modulus / substrate for layer in body.layers)
+def _base_modulus(body: Body) -> float:
+    base = body.material
+    return base.young_modulus if isinstance(base, IsotropicMaterial) else np.inf
 
 
 def _friction_coefficients(scene: Scene) -> Iterator[float]:
@@ -77,5 +67,4 @@ def _friction_shares(scene: Scene, result: Result) -> Iterator[float]:
             for increment in result.increments
             if increment.tangential_force is not None and increment.normal_force > 0
         ]
-        largest = max(shares, default=0.0)
-        yield from [largest] if largest > 0 else []
+        yield from [max(shares)] if any(shares) else []

@@ -22,6 +22,7 @@ from semi_analytical.frf.surface import (
     scalars,
 )
 from semi_analytical.influence.layered import LayeredCoefficients
+from verification.norms import max_norm
 
 SEED = 20_240_511
 DRAWS = 200
@@ -69,7 +70,7 @@ def apart(F: NDArray[np.complex128], expected: NDArray[np.complex128]) -> float:
     F         matrix that is tested (..., 3, 3) [length^3/force]
     expected  matrix that the law requires, of the same shape
     """
-    return float(np.abs(F - expected).max() / np.abs(expected).max())
+    return max_norm(F - expected) / max_norm(expected)
 
 
 def deficit(larger: NDArray[np.complex128], smaller: NDArray[np.complex128]) -> float:
@@ -83,7 +84,7 @@ def deficit(larger: NDArray[np.complex128], smaller: NDArray[np.complex128]) -> 
     smaller  compliance matrix of the stiffer body (3, 3)
     """
     least = float(np.linalg.eigvalsh(larger - smaller).min())
-    return max(0.0, -least / float(np.abs(larger).max()))
+    return max(0.0, -least / max_norm(larger))
 
 
 SPECIAL_RATIOS = (0.0, 0.3, 0.5)
@@ -148,7 +149,7 @@ def _thick_layer_error(rng: Generator) -> float:
     outer = half_space_scalars(body.outer, alpha)
     bound = ECHO * (1 + x * x) * np.exp(-2 * x) + ROUNDING
     difference = np.subtract(scalars(body, alpha), outer)
-    return float(np.abs(difference).max() / (bound * float(outer.csh)))
+    return float(max_norm(difference) / (bound * float(outer.csh)))
 
 
 def _stiffer_layer_deficit(rng: Generator) -> float:
@@ -186,7 +187,7 @@ def _incompressible_limit_error(rng: Generator) -> float:
     )
     # d(1/M)/d(nu) = -4/G per unit thickness, at most, and a few more for c11 and c12.
     scale = limit.max() + min(h, 1 / alpha) / G
-    return float(np.abs(close - limit).max() / scale)
+    return float(max_norm(close - limit) / scale)
 
 
 def _count_non_finite_entries(rng: Generator) -> float:
@@ -209,17 +210,17 @@ def _interface_jump(rng: Generator) -> float:
     c11, c12, c22, _ = scalars(body, alpha)
     surface = np.array([[c11, c12], [c12, c22]])
     worst = max(
-        float(np.abs(top.traction[..., 0] - np.eye(2)).max()),
-        float(np.abs(top.displacement - surface).max() / np.abs(surface).max()),
+        max_norm(top.traction[..., 0] - np.eye(2)),
+        max_norm(top.displacement - surface) / max_norm(surface),
     )
     below = len(body.layers) - (body.base is None)
     for k, depth in enumerate(np.cumsum([f.thickness for f in body.layers])[:below]):
         above, under = (descent.at(Level(float(depth), layer)) for layer in (k, k + 1))
         for one, other, scale in (
             (above.traction, under.traction, 1.0),
-            (above.displacement, under.displacement, np.abs(surface).max()),
+            (above.displacement, under.displacement, max_norm(surface)),
         ):
-            worst = max(worst, float(np.abs(one - other).max() / scale))
+            worst = max(worst, max_norm(one - other) / scale)
     return worst
 
 
@@ -233,7 +234,7 @@ def _negative_energy(rng: Generator) -> float:
     if not (c11 > 0 and c22 > 0 and csh > 0 and c11 * c22 > c12**2):
         return np.inf
     F = response_matrix(body, *k)
-    return max(0.0, -float(np.linalg.eigvalsh(F).min() / np.abs(F).max()))
+    return max(0.0, -float(np.linalg.eigvalsh(F).min() / max_norm(F)))
 
 
 def _homogeneous_layers_error(rng: Generator) -> float:
@@ -274,7 +275,7 @@ def _negative_operator_energy(rng: Generator) -> float:
     side = decades(rng, -2, 0) * sum(film.thickness for film in body.layers)
     K = LayeredCoefficients(body, (side, side * rng.uniform(0.2, 1)), (4, 3))
     operator = dense_operator(K, (4, 3))
-    return max(0.0, float(-np.linalg.eigvalsh(operator).min() / np.abs(operator).max()))
+    return max(0.0, float(-np.linalg.eigvalsh(operator).min() / max_norm(operator)))
 
 
 def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:

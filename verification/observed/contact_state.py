@@ -17,6 +17,7 @@ import numpy as np
 from contact_scene import ControlKind, Scene
 from contact_scene.array_types import Field, Mask
 from contact_scene.rig import prescribed_motions
+from verification.norms import max_norm
 
 if TYPE_CHECKING:
     from contact_scene.stepping.load_path import ScalarControl, VectorControl
@@ -39,7 +40,7 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
         yield _control_deviation(ramp.normal, end.normal_force, approach, force, motion)
         if ramp.stretch is not None:
             strain = np.subtract((*end.bulk_strain, end.bulk_shear), ramp.stretch[1])
-            yield float(np.max(np.abs(strain))) * arm / motion
+            yield max_norm(strain) * arm / motion
         moment, tilt = getattr(end, "moment", None), getattr(end, "tilt", None)
         yield _control_deviation(ramp.tilting, moment, tilt, force * arm, motion / arm)
         if scene.friction is None:
@@ -62,10 +63,7 @@ def _control_deviation(
     """
     by_force = control.kind is ControlKind.FORCE
     found_end, scale = (force, scales[0]) if by_force else (motion, scales[1])
-    return (
-        float(np.max(np.abs(np.subtract(0.0 if found_end is None else found_end, control.end))))
-        / scale
-    )
+    return max_norm(np.subtract(0.0 if found_end is None else found_end, control.end)) / scale
 
 
 class Imbalance(float):

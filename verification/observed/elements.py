@@ -9,13 +9,13 @@ the shear between the passes is at most the sum of the friction limits of p and 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from contact_scene import IsotropicMaterial
 from contact_scene.array_types import Field
+from contact_scene.body_pair import contact_modulus
 from fem_reference import Increment, Path, Result
 from fem_reference.compliance.gauss_points import gauss_points
 from fem_reference.elasticity.hat_functions import TractionBasis
@@ -32,13 +32,14 @@ from fem_reference.scales import Scales
 from verification.observed.contact_state import (
     BISECTED,
     UNDEFINED,
-    Balance,
     ContactState,
 )
 from verification.observed.ring_points import (
+    RingPoints,
     angle_weights,
     displacement_by_harmonics,
     displacement_per_motion,
+    gap_difference,
     loads_and_motions,
 )
 
@@ -131,14 +132,6 @@ class Rings:
         if values is None:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
-
-    def stretched(self, increment: Increment) -> Field:
-        """Compute the displacement (2, rings, angles) by bulk strain of the lower body [length].
-
-        The displacement is averaged over each ring.
-        """
-        strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
-        return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
 
     def vector(self, increment: Increment, name: str) -> Field:
         """Return the shear or the slip of a finite element increment as a vector field (2, rings,
@@ -269,12 +262,7 @@ def _spring_stiffness(result: Result, element: float) -> float:
 
     element  length h of a contact edge of an element [length]
     """
-    softness = 0.0
-    for body in (result.scene.body, result.scene.indenter):
-        outermost = body.layers[0].material if body.layers else body.material
-        if isinstance(outermost, IsotropicMaterial):
-            softness += (1 - outermost.poisson_ratio**2) / outermost.young_modulus
-    return result.discretisation.penalty / (softness * element)
+    return float(result.discretisation.penalty * contact_modulus(result.scene) / element)
 
 
 def _state_on_elements(
@@ -284,55 +272,41 @@ def _state_on_elements(
     along, u_z = rings.displacement(p, q)
     if result.plan.path in ANGULAR:  # contact springs are treated as part of the bodies
         along, u_z, give = along + give * q, u_z + give * p, 0.0
-    forces, motions = loads_and_motions(increment, result.plan.direction)
-    if motions is None and not np.any(forces):
-        motions = np.zeros(3)
-    approach = increment.approach
-    assert approach is not None  # a line contact has a reference length
-    w, depth = rings.weights, abs(approach)
+    points = RingPoints(rings.weights, rings.arms, rings.driven, rings.undeformed)
     friction = rings.model.friction.at_radii(rings.basis.radii[:, None])
-    limit, stretched = friction.limit(p), rings.stretched(increment)
-    gap, driven = rings.undeformed + u_z - approach, rings.driven
-    apart = np.where(p > 0, 0.0, gap)
-    stated = [float(np.max(np.abs(apart - rings.on_grid(increment.gap))) / depth)]
+    limit, slip = friction.limit(p), rings.vector(increment, "slip")
+    state = points.state(
+        increment,
+        result.plan.direction,
+        p,
+        q,
+        slip,
+        limit,
+        force=rings.integral(p),
+        turning=float(np.sum(rings.weights * limit * rings.driven[2, 1])),
+    )
+    gap, passed = points.gap(increment, u_z), points.passed(state, along)
+    stated = [gap_difference(p, gap, rings.on_grid(increment.gap), state.depth)]
     loose: Field | float = 0.0
     if give:
         assert increment.overlap is not None
         overlap = float(np.max(np.abs(gap), where=p > 0, initial=0.0))
-        stated.append(abs(overlap - increment.overlap) / depth)
+        stated.append(abs(overlap - increment.overlap) / state.depth)
         loose = (limit + friction.limit(np.maximum(p + gap / give, 0.0))) * give
-    most, carried = float(np.sum(w * limit)), np.sum(w * driven * q, axis=(1, 2, 3))
-    balances = [Balance(rings.integral(p), increment.normal_force, increment.normal_force)]
-    if most:
-        balances.append(Balance(carried[:2], forces[:2], most))
-        turning = float(np.sum(w * limit * driven[2, 1]))
-        if increment.torque is not None and turning:
-            balances.append(Balance(carried[2], forces[2], turning))
-    moved = np.zeros(3) if motions is None else motions
-    slip = rings.vector(increment, "slip")
-    passed = along + stretched - np.tensordot(moved, driven, axes=1)
     if increment.angles is None and result.plan.path is not Path.SHEARING and not give:
         passed[:, 0] = slip[:, 0]  # on the axis there is neither shear nor slip
-    undefined = motions is None or (bool(np.any(q)) and increment.dissipated_energy is None)
+    loads, motions = loads_and_motions(increment, result.plan.direction)
+    undefined = (motions is None and bool(np.any(loads))) or (
+        bool(np.any(q)) and increment.dissipated_energy is None
+    )
     skipped = BISECTED if increment.halvings else UNDEFINED if undefined else ""
-    strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
-    return ContactState(
-        increment,
-        w,
-        rings.undeformed,
-        p,
-        gap,
-        q,
-        limit,
-        slip,
-        None if undefined else passed,
-        np.array([increment.normal_force, *forces, float(np.sum(w * q[0] * rings.arms[:, None]))]),
-        np.array([approach, *moved, -strain]),
-        depth,
-        tuple(balances),
-        tuple(stated),
-        give,
-        loose,
+    return replace(
+        state,
+        gap=gap,
+        passed=None if undefined else passed,
+        stated=tuple(stated),
+        give=give,
+        loose=loose,
         unseen=skipped,
         open=skipped,
     )

@@ -25,14 +25,15 @@ from radial import Increment, Result
 from verification.observed.contact_state import (
     BISECTED,
     FEW_RINGS,
-    Balance,
     ContactState,
 )
 from verification.observed.ring_displacement import RingDisplacement
 from verification.observed.ring_points import (
+    RingPoints,
     angle_weights,
     displacement_per_motion,
-    loads_and_motions,
+    gap_difference,
+    sum_over_hats,
 )
 
 # Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
@@ -118,46 +119,31 @@ def _state_on_radii(
     w = weights[:, None] * angle_weights(angles)
     limit = (result.scene.friction or FRICTIONLESS).at_radii(r[:, None]).limit(p)
     driven = displacement_per_motion(arm, angles, along=now.angles is not None)
-    carried = np.sum(w * driven * q, axis=(1, 2, 3))
-    loads, motions = loads_and_motions(now, result.plan.direction)
-    moved = np.zeros(3) if motions is None else motions
-    most = float(np.sum(w * limit)) or now.normal_force
-    balances = [Balance(float(np.sum(w * p)), now.normal_force, now.normal_force)]
-    if np.any(q) or np.any(limit):
-        balances.append(Balance(carried[:2], loads[:2], most))
-        if now.torque is not None:
-            balances.append(Balance(carried[2], loads[2], most * now.contact_radius))
-    strain = 0.0 if now.bulk_strain is None else now.bulk_strain[0]
-    undeformed, opened = np.broadcast_to(f[:, None], p.shape), now.gap.reshape(p.shape)
-    state = ContactState(
+    points = RingPoints(w, arm, driven, np.broadcast_to(f[:, None], p.shape))
+    state = points.state(
         now,
-        w,
-        undeformed,
+        result.plan.direction,
         p,
-        opened,
         q,
+        slip,
         limit,
-        slip,
-        slip,
-        np.array([now.normal_force, *loads, float(np.sum(w * arm[:, None] * q[0]))]),
-        np.array([now.approach, *moved, -strain]),
-        now.approach,
-        () if few else tuple(balances),
-        least_work=now.dissipated_energy or 0.0,
+        force=float(np.sum(w * p)),
+        turning=(float(np.sum(w * limit)) or now.normal_force) * now.contact_radius,
     )
-    if elastic is None or few:
+    opened = now.gap.reshape(p.shape)
+    state = replace(state, gap=opened, least_work=now.dissipated_energy or 0.0)
+    if few:
+        return replace(state, balances=())
+    if elastic is None:
         return state
     u = elastic.by(np.stack([*q, p]), angles)
-    gap = undeformed + u[2] - now.approach
-    off = float(np.max(np.abs(np.where(p > 0, 0.0, gap) - opened)) / now.approach)
-    passed = u[:2] - np.tensordot(moved, driven, axes=1)
-    passed[0] += strain * arm[:, None]
+    opening, passed = points.gap(now, u[2]), points.passed(state, u[:2])
     passed[:, 0] = slip[:, 0]  # the axis is one point with the mean of its angles
     return replace(
         state,
-        gap=gap,
+        gap=opening,
         passed=None if now.dissipated_energy is None else passed,
-        stated=(off,),
+        stated=(gap_difference(p, opening, opened, now.approach),),
         between=now.angles is not None,
     )
 
@@ -199,5 +185,4 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
     nodes, shares = GAUSS
     v, length = (1 + nodes) / 2, np.diff(r)[:, None]
     at = r[:-1, None] + length * v
-    part = np.pi * function(at) * at * length * shares
-    return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
+    return sum_over_hats(np.pi * function(at) * at * length * shares, v)

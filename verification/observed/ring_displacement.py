@@ -25,7 +25,7 @@ from contact_scene.array_types import Field
 from radial.response.bessel_functions import bessel_functions
 from radial.response.wavenumbers import waves as wave_quadrature
 from semi_analytical.frf.response_matrix import surface_response
-from verification.observed.ring_points import displacement_by_harmonics
+from verification.observed.ring_points import displacement_by_harmonics, sum_over_hats
 
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an
 # error of 3e-5 for the rings of the solver, of which the smallest are 1/1000 of this radius apart.
@@ -101,14 +101,9 @@ class RingDisplacement:
         k, _ = self._wavenumbers
         found = np.empty((self.highest + 2, len(k), len(self.radii)))
 
-        def summed(values: Field) -> Field:
-            inner, outer = (values * area) @ (1 - share), (values * area) @ share
-            ends = np.zeros((*inner.shape[:-1], 1))
-            return np.append(inner, ends, -1) + np.append(ends, outer, -1)
-
         for start in range(0, len(k), BLOCK):
             some = slice(start, start + BLOCK)
             at = np.multiply.outer(k[some], r)
             for order, values in enumerate(bessel_functions(self.highest + 1, at)):
-                found[order, some] = summed(values)
-        return summed(np.ones_like(r)), found
+                found[order, some] = sum_over_hats(values * area, share)
+        return sum_over_hats(area, share), found

@@ -8,11 +8,14 @@ whole circle.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from contact_scene.array_types import Field
+from verification.norms import max_norm
+from verification.observed.contact_state import Balance, ContactState
 
 ABSENT = 1e-9  # below this mean square a wave is zero at all angles, up to round-off
 
@@ -68,6 +71,104 @@ def loads_and_motions(increment: Any, along: tuple[float, float]) -> tuple[Field
     if unknown or (twist is None and increment.torque is not None):
         return forces, None
     return forces, np.array([*axes @ (shift or (0.0, 0.0)), twist or 0.0])
+
+
+@dataclass(frozen=True)
+class RingPoints:
+    """Points of a contact surface on rings and angles, for the states of all increments.
+
+    weights     area of the points (rings, angles) [length²]
+    arms        mean distance of each ring from the axis (rings,) [length]
+    driven      displacement r, θ of the points (3, 2, rings, angles) per unit motion
+    undeformed  gap before any load (rings, angles) [length]
+    """
+
+    weights: Field
+    arms: Field
+    driven: Field
+    undeformed: Field
+
+    def state(
+        self,
+        now: Any,
+        along: tuple[float, float],
+        pressure: Field,
+        shear: Field,
+        slip: Field,
+        limit: Field,
+        *,
+        force: float,
+        turning: float,
+    ) -> ContactState:
+        """Create the state of an increment, whose gap and motion of the surfaces are still zero.
+
+        now      increment of any solver
+        along    unit vector of the direction of the load
+        force    normal force that the pressure carries [force]
+        turning  torque at gross slip, the scale of the balance of the torque [force*length]
+        """
+        loads, motions = loads_and_motions(now, along)
+        moved = np.zeros(3) if motions is None else motions
+        carried = np.sum(self.weights * self.driven * shear, axis=(1, 2, 3))
+        most = float(np.sum(self.weights * limit)) or now.normal_force
+        balances = [Balance(force, now.normal_force, now.normal_force)]
+        if np.any(shear) or np.any(limit):
+            balances.append(Balance(carried[:2], loads[:2], most))
+            if now.torque is not None and turning:
+                balances.append(Balance(carried[2], loads[2], turning))
+        outward = float(np.sum(self.weights * self.arms[:, None] * shear[0]))
+        return ContactState(
+            now,
+            self.weights,
+            self.undeformed,
+            pressure,
+            np.zeros_like(pressure),
+            shear,
+            limit,
+            slip,
+            slip,
+            np.array([now.normal_force, *loads, outward]),
+            np.array([now.approach, *moved, -_strain(now)]),
+            abs(now.approach),
+            tuple(balances),
+        )
+
+    def gap(self, now: Any, normal: Field) -> Field:
+        """Compute the gap from the normal displacement of the surfaces [length]."""
+        return np.asarray(self.undeformed + normal - now.approach)
+
+    def passed(self, state: ContactState, along: Field) -> Field:
+        """Compute the motion of the lower surface relative to the indenter [length].
+
+        state  state of the increment, with the motions of the indenter
+        along  displacement r, θ of the surfaces by the tractions (2, rings, angles) [length]
+        """
+        passed = along - np.tensordot(state.motions[1:4], self.driven, axes=1)
+        passed[0] += _strain(state.increment) * self.arms[:, None]
+        return np.asarray(passed)
+
+
+def gap_difference(pressure: Field, gap: Field, stated: Field, depth: float) -> float:
+    """Compute the largest difference of a computed gap from the stated gap, over the depth [1].
+
+    In contact the stated gap has to be zero.
+    """
+    return max_norm(np.where(pressure > 0, 0.0, gap) - stated) / depth
+
+
+def _strain(increment: Any) -> float:
+    return 0.0 if increment.bulk_strain is None else float(increment.bulk_strain[0])
+
+
+def sum_over_hats(parts: Field, share: Field) -> Field:
+    """Sum integrals over intervals between rings with the hat function of each ring (…, rings).
+
+    parts  values times weights at the integration points (…, intervals, points)
+    share  places of the points in an interval, from 0 at the inner to 1 at the outer ring
+    """
+    inner, outer = parts @ (1 - share), parts @ share
+    ends = np.zeros((*inner.shape[:-1], 1))
+    return np.append(inner, ends, -1) + np.append(ends, outer, -1)
 
 
 def displacement_by_harmonics(

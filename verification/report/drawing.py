@@ -15,7 +15,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import NullFormatter
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
@@ -37,12 +37,22 @@ LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
-# Numbers of ticks, the smaller one beside long names.
-MAX_TICKS = 8
-FEW_TICKS = 6
 DECADE = 10.0
-FEW_DECADES = 2.5  # with labels between powers of ten
-SHORT_TICKS = 4  # intervals of an axis with at most one label at these numbers
+# Arguments of matplotlib for looks that have the same colour in every series, and for the others.
+FIXED_LOOKS: dict[Look, dict[str, Any]] = {
+    Look.REFERENCE: {"color": REFERENCE_COLOUR, "linewidth": 4.0, "solid_capstyle": "round"},
+    Look.BOUND: {"color": INK, "linewidth": 0.7, "linestyle": BOUND_DASHES},
+    Look.MARKS: {"color": INK, "linestyle": "none", "marker": "o", "markersize": 4},
+}
+LOOKS: dict[Look, dict[str, Any]] = {
+    Look.FITTED: {"linewidth": 1.0},
+    Look.BAND: {"alpha": BAND_OPACITY, "linewidth": 0},
+    Look.SLOPE: {"linewidth": 0.9, "linestyle": (0, (4, 3))},
+    Look.TILES: {"linestyle": "none", "markersize": 7},
+    Look.POINTS: {"linewidth": 1.0, "markersize": 3.6},
+    Look.LEVELS: {"linestyle": "none", "markersize": LEAST_MARK, "fillstyle": "none"},
+    Look.COMPUTED: {"linewidth": 1.3},
+}
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 
 
@@ -70,7 +80,7 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.patch.set_visible(False)
     if panel.logarithmic:
         ax.set_xscale("log")
-        ax.set_yscale("linear" if panel.y_places else "log")
+        ax.set_yscale("log")
     elif any(min(c.y, default=0) < 0 < max(c.y, default=0) for c in panel.curves):
         ax.axhline(0.0, color=INK, linewidth=0.5)
     for curve in panel.curves:
@@ -91,8 +101,7 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
         )
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.logarithmic:
-        least = panel.least_range, DECADE
-        _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS, least)
+        _label_decades(ax, panel.least_range)
     if panel.x_places:
         ax.set_xticks(range(len(panel.x_places)), panel.x_places)
         ax.set_xlim(-0.5, len(panel.x_places) - 0.5)
@@ -108,32 +117,23 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     _draw_legend(ax, panel)
 
 
-def _label_decades(ax: Any, most: int, least: tuple[float, float]) -> None:
-    """Print labels on the logarithmic axes of a panel at powers of ten.
+def _label_decades(ax: Any, least: float) -> None:
+    """Print round numbers on the logarithmic axes of a panel.
 
-    A short axis has labels also at 2 and 5 times the powers, or at equal distances. The y axis
-    spans a decade at least, so that equal errors do not look different.
+    The y axis spans a decade at least, so that equal errors do not look different.
 
     ax     axes of matplotlib
-    most   largest number of labels per axis
-    least  smallest ratio of the ends of the x axis and of the y axis
+    least  smallest ratio of the ends of the x axis
     """
-    for axis, ratio in zip((ax.xaxis, ax.yaxis), least, strict=True):
-        if axis.get_scale() == "log":
-            low, high = axis.get_view_interval()
-            if high < ratio * low:
-                middle = np.sqrt(low * high)
-                low, high = middle / np.sqrt(ratio), middle * np.sqrt(ratio)
-                (ax.set_xlim if axis is ax.xaxis else ax.set_ylim)(low, high)
-            parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
-            powers = DECADE ** np.arange(np.floor(np.log10(low)), np.log10(high))
-            places = np.outer(powers, parts)
-            if np.count_nonzero((low <= places) & (places <= high)) > 1:
-                axis.set_major_locator(LogLocator(subs=parts, numticks=most))
-            else:
-                axis.set_major_locator(MaxNLocator(SHORT_TICKS))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-            axis.set_minor_formatter(NullFormatter())
+    for axis, set_ends, ratio in ((ax.xaxis, ax.set_xlim, least), (ax.yaxis, ax.set_ylim, DECADE)):
+        low, high = axis.get_view_interval()
+        if high < ratio * low:
+            middle, part = np.sqrt(low * high), np.sqrt(ratio)
+            low, high = middle / part, middle * part
+            set_ends(low, high)
+        ticks = style.round_ticks(low, high)
+        axis.set_ticks(ticks, [plain(tick) for tick in ticks])
+        axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
 
 
@@ -142,38 +142,18 @@ def look_of(curve: Curve) -> dict[str, Any]:
 
     When the colours repeat, the markers are shifted by one, so that 36 series look different.
     """
+    if curve.look in FIXED_LOOKS:
+        return FIXED_LOOKS[curve.look]
     round_, place = divmod(curve.series, len(style.LINE_COLOURS))
-    colour, shape = style.LINE_COLOURS[place], (place + round_) % len(MARKERS)
-    match curve.look:
-        case Look.REFERENCE:
-            return {"color": REFERENCE_COLOUR, "linewidth": 4.0, "solid_capstyle": "round"}
-        case Look.BOUND:
-            return {"color": INK, "linewidth": 0.7, "linestyle": BOUND_DASHES}
-        case Look.FITTED:
-            return {"color": colour, "linewidth": 1.0}
-        case Look.BAND:
-            return {"color": colour, "alpha": BAND_OPACITY, "linewidth": 0}
-        case Look.SLOPE:
-            return {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 3))}
-        case Look.MARKS:
-            return {"color": INK, "linestyle": "none", "marker": "o", "markersize": 4}
-        case Look.TILES:
-            marker = MARKERS[shape]
-            return {"color": colour, "linestyle": "none", "marker": marker, "markersize": 7}
-        case Look.POINTS:
-            marker = MARKERS[shape]
-            return {"color": colour, "linewidth": 1.0, "marker": marker, "markersize": 3.6}
-        case Look.LEVELS:
-            size = LEAST_MARK + MARK_GROWTH * (place % MARK_SIZES)
-            return {
-                "color": colour,
-                "linestyle": "none",
-                "marker": MARKERS[shape],
-                "markersize": size,
-                "fillstyle": "none",
-            }
-        case Look.COMPUTED:
-            return {"color": colour, "linewidth": 1.3, "linestyle": style.LINE_STYLES[shape]}
+    shape = (place + round_) % len(MARKERS)
+    look = {"color": style.LINE_COLOURS[place], **LOOKS[curve.look]}
+    if "markersize" in look:
+        look["marker"] = MARKERS[shape]
+    if curve.look is Look.LEVELS:
+        look["markersize"] += MARK_GROWTH * (place % MARK_SIZES)
+    if curve.look is Look.COMPUTED:
+        look["linestyle"] = style.LINE_STYLES[shape]
+    return look
 
 
 def _draw_legend(ax: Any, panel: Panel) -> None:

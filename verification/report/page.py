@@ -27,12 +27,10 @@ from verification.exhibits.chart import (
     value_text,
 )
 from verification.judging.outcome import (
-    FOUND_IN_A_RUN,
     SYMBOLS,
     WORDS,
     CaseOutcome,
     Status,
-    Verdict,
     clearance_text,
     error_text,
     failure_text,
@@ -49,6 +47,7 @@ from verification.report.summary_text import (
     counts_text,
     features,
     moved_rows,
+    nearest_to_limit,
     origins,
     study_section,
     uncovered_errors,
@@ -163,7 +162,7 @@ def cases_by_physics(cases: Sequence[CaseOutcome]) -> dict[str, list[CaseOutcome
 
 def _share_used(case: CaseOutcome) -> tuple[bool, float]:
     """Return the key by which cases are sorted: failed cases, then the share of the tolerance."""
-    worst = _nearest_to_limit(case)
+    worst = nearest_to_limit(case)
     return case.status is Status.FAIL, 0.0 if worst is None else worst.clearance or 0.0
 
 
@@ -176,19 +175,11 @@ def line_of(case: CaseOutcome) -> str:
     """
     total, passed = len(case.verdicts), case.count(Status.PASS)
     counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
-    worst = _nearest_to_limit(case)
+    worst = nearest_to_limit(case)
     if worst is None:
         return counted
     name = worst.name.replace("_", " ")
     return f"{counted}; {name} uses {clearance_text(worst)} of what is allowed"
-
-
-def _nearest_to_limit(case: CaseOutcome) -> Verdict | None:
-    def rank(verdict: Verdict) -> tuple[bool, bool, float]:
-        measured = verdict.status is Status.PASS and verdict.name not in FOUND_IN_A_RUN
-        return verdict.status is Status.FAIL, measured, verdict.clearance or 0.0
-
-    return max((v for v in case.verdicts if v.clearance is not None), key=rank, default=None)
 
 
 def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:

@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 
 from verification.exhibits.chart import plain, value_text
 from verification.judging.outcome import (
+    FOUND_IN_A_RUN,
     ROUNDING,
     SYMBOLS,
     WORDS,
@@ -344,16 +345,8 @@ def counts_text(report: Report) -> str:
     failed = len(report.failed_studies)
     older = sum(study.status is Status.FAIL for study in report.studies) - failed
     open_ = sum(study.status is Status.INCONCLUSIVE for study in report.studies)
-    parts = [
-        ", ".join(
-            f"{report.counts[status]} {word}"
-            for status, word in (
-                (Status.PASS, "passed"),
-                (Status.FAIL, "failed"),
-                (Status.INCONCLUSIVE, "inconclusive"),
-            )
-        )
-    ]
+    passed, inconclusive = report.counts[Status.PASS], report.counts[Status.INCONCLUSIVE]
+    parts = [f"{passed} passed, {report.counts[Status.FAIL]} failed, {inconclusive} inconclusive"]
     parts += [f"{sum(map(bool, found))} of {len(found)} stated errors cover"] if found else []
     parts += [f"{failed} of the studies failed"] if failed else []
     parts += [f"{older} of the studies failed and are older than the code"] if older else []
@@ -456,7 +449,8 @@ def _summary_lines(report: Report) -> Iterator[str]:
     yield "| case | verdict | verdicts | closest to its limit |"
     yield "| --- | --- | --- | --- |"
     for case in report.cases:
-        status, closest = _status_text(case.status), _closest_verdict_text(case)
+        status, worst = _status_text(case.status), nearest_to_limit(case)
+        closest = "–" if worst is None else f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
         yield f"| {case.name} | {status} | {len(case.verdicts)} | {closest} |"
 
 
@@ -464,13 +458,18 @@ def _status_text(status: Status) -> str:
     return f"{SYMBOLS[status]} {WORDS[status]}"
 
 
-def _closest_verdict_text(case: CaseOutcome) -> str:
-    """Describe the verdict of a verification case that is nearest to its tolerance, for the
-    summary."""
+def nearest_to_limit(case: CaseOutcome) -> Verdict | None:
+    """Return the verdict of a case that uses most of its tolerance.
 
-    known = [verdict for verdict in case.verdicts if verdict.clearance is not None]
-    worst = max(known, key=lambda verdict: verdict.clearance or 0.0, default=None)
-    return "–" if worst is None else f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
+    Failed verdicts come first, then those that pass. The largest residual and violation of a case
+    count only if the case has no other verdict.
+    """
+
+    def rank(verdict: Verdict) -> tuple[bool, bool, float]:
+        measured = verdict.status is Status.PASS and verdict.name not in FOUND_IN_A_RUN
+        return verdict.status is Status.FAIL, measured, verdict.clearance or 0.0
+
+    return max((v for v in case.verdicts if v.clearance is not None), key=rank, default=None)
 
 
 def _change_lines(report: Report) -> Iterator[str]:

@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verification.exhibits.chart import NONE, Table, plain, table_of
+from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.outcome import CaseOutcome, Verdict, clearance_text, error_text
 from verification.judging.tested_parameters import (
     FRICTION,
@@ -63,28 +63,35 @@ def validity_table(report: Report) -> Table:
     table has no rows if the record is older than the parameters, or if no run is judged.
     """
     rows = [
-        (name, tested)
+        _row(name, tested)
         for name, ends in INTERVALS.items()
         for tested in _by_interval(list(_tested_numbers(report, name)), ends)
     ]
-    return table_of(
-        "Tested ranges of parameters, with the largest errors",
-        {
-            "parameter": lambda row: row[0],
-            "tested": lambda row: _range_text([one.value for one in row[1]]),
-            "cases": lambda row: str(len({one.case.name for one in row[1]})),
-            "largest error": lambda row: _largest_error_text(row[1]),
-            "of": lambda row: _worst_error_name(row[1]),
-            "share of tolerance": lambda row: clearance_text(_nearest(row[1]).verdict),
-            "by": lambda row: _nearest(row[1]).name,
-        },
-        rows,
-        "h/a: thickness of a layer over the largest contact radius. E1/E2: Young's modulus of a "
-        "layer over that of its substrate. T/(µW): largest tangential force over the friction "
+    return Table(
+        title="Tested ranges of parameters, with the largest errors",
+        columns=("parameter", "tested", "cases", "largest error", "of", "share of tolerance", "by"),
+        rows=tuple(rows),
+        note="h/a: thickness of a layer over the largest contact radius. E1/E2: Young's modulus of "
+        "a layer over that of its substrate. T/(µW): largest tangential force over the friction "
         "limit. A number counts at every parameter of its runs. Errors are relative to the scale "
         "of their number, and are those of references from outside the program. Runs without edge "
         "correction, which orders of convergence need, are left out.",
-        NONE,
+        units=NONE,
+    )
+
+
+def _row(parameter: str, tested: list[Tested]) -> tuple[str, ...]:
+    worst = max(tested, key=lambda one: one.error_rank)
+    nearest = max(tested, key=lambda one: one.verdict.clearance or 0.0)
+    known = worst.error_rank >= 0
+    return (
+        parameter,
+        _range_text([one.value for one in tested]),
+        str(len({one.case.name for one in tested})),
+        error_text(worst.verdict) if known else NO_ERROR,
+        worst.name if known else NO_REFERENCE,
+        clearance_text(nearest.verdict),
+        nearest.name,
     )
 
 
@@ -108,21 +115,3 @@ def _by_interval(tested: list[Tested], ends: tuple[float, ...]) -> Iterator[list
 def _range_text(values: list[float]) -> str:
     low, high = plain(min(values)), plain(max(values))
     return low if low == high else f"{low} to {high}"
-
-
-def _worst_error(tested: list[Tested]) -> Tested:
-    return max(tested, key=lambda one: one.error_rank)
-
-
-def _largest_error_text(tested: list[Tested]) -> str:
-    worst = _worst_error(tested)
-    return NO_ERROR if worst.error_rank < 0 else error_text(worst.verdict)
-
-
-def _worst_error_name(tested: list[Tested]) -> str:
-    worst = _worst_error(tested)
-    return NO_REFERENCE if worst.error_rank < 0 else worst.name
-
-
-def _nearest(tested: list[Tested]) -> Tested:
-    return max(tested, key=lambda one: one.verdict.clearance or 0.0)

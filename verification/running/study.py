@@ -169,14 +169,16 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
     records   records by name of the case
     findings  rows of the conclusion
     """
-    clock = [(name, record.seconds, record.repeats) for name, record in records.items()]
     files: dict[str, Sequence[Cells]] = {
         ROWS: _rows_by_case(records.items()),
         PARTS: _rows_by_case(
             (name, part) for name, record in records.items() for part in record.parts
         ),
         FINDINGS: [_csv_line(row) for row in findings],
-        SECONDS: [dict(zip((CASE, "seconds", "repeats"), line, strict=True)) for line in clock],
+        SECONDS: [
+            {CASE: name, "seconds": record.seconds, "repeats": record.repeats}
+            for name, record in records.items()
+        ],
     }
     return {name: csv_text(lines) for name, lines in files.items() if lines}
 
@@ -242,7 +244,7 @@ class Statement(Description):
     measured: str
     because: str = ""
     about: Row | None = None
-    """Measured numbers as fields; null in older records."""
+    """Measured numbers of older records as fields; null in others."""
 
 
 class LostCase(Description):
@@ -420,5 +422,4 @@ def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
         claim=claim,
         outcome=judged(count == asked),
         measured=f"{count} of {asked}{what and ' '}{what}",
-        about=Row(counters={"found": count, "asked": asked}),
     )

@@ -10,7 +10,6 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
 from zlib import crc32
 
 import numpy as np
@@ -21,9 +20,9 @@ from contact_errors.coarse_solves import stated_errors
 from contact_errors.error_formula import values_of
 from contact_scene.accuracy import BOUND, LARGEST_TENSION, AccuracyRequest
 from contact_scene.discretised import Fineness
-from contact_scene.quantities.stated_error import ErrorStatus, StatedError, StatedErrors
+from contact_scene.quantities.stated_error import ErrorStatus, StatedError
 from contact_scene.solver_errors import SolverError
-from verification.exhibits.chart import Chart, Look, Table, log_chart, point_curves, table_of
+from verification.exhibits.chart import NONE, Chart, Look, Table, log_chart, point_curves
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import (
@@ -91,10 +90,7 @@ class CoverageCase:
         """
         known = drawn(self.family, self.seed, self.number)
         started = time.process_time()
-        record = CaseRecord(
-            parameters=parameters_of(self) | {"solver": known.fineness.solver},
-            measures={"per_radius": known.fineness.per_radius},
-        )
+        record = CaseRecord(parameters=parameters_of(self) | {"solver": known.fineness.solver})
         try:
             parts = tuple(_coverage_rows(known))
         except SolverError as error:
@@ -104,7 +100,8 @@ class CoverageCase:
 
 
 def _coverage_rows(known: KnownScene) -> Iterator[Row]:
-    result, errors = _solve_with_errors(known)
+    result = known.solver.run()
+    errors = stated_errors(result)
     steps = values_of(result)
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
     stresses = {step: stress_maxima(result, step, errors) for step in stressed}
@@ -125,26 +122,20 @@ def coverage_row(truth: Truth, found: float, stated: StatedError | None) -> Row:
     found   computed value, in the unit of the reference
     stated  error that the run states for the value; None if the run states none
     """
-    size = abs(truth.reference.value)
+    size = abs(truth.value)
     error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
     return Row(
         parameters={"quantity": truth.quantity, "kind": truth.kind, "step": truth.step},
         measures={
-            WRONG: abs(found - truth.reference.value) / size,
+            WRONG: abs(found - truth.value) / size,
             STATED: None if error is None else error / size,
-            UNCERTAIN: truth.reference.uncertainty / size,
+            UNCERTAIN: truth.uncertainty / size,
         },
         words={
             "status": "not stated" if stated is None else str(stated.status),
             "by": REFERENCE if stated and stated.parts.keys() <= OF_REFERENCES else COARSE_SOLVES,
         },
     )
-
-
-def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
-    """Solve a scene with known results; return the result and its stated errors."""
-    result = known.solver.run()
-    return result, stated_errors(result)
 
 
 CONFIDENCE = 0.95
@@ -365,11 +356,10 @@ class RequestCase:
             made = refine(levels, AccuracyRequest(**{quantity: share}))
         except SolverError as error:
             return record.model_copy(update={"words": {"outcome": f"refused: {error}"}})
-        largest = max(abs(truth.reference.value) for truth in truths)
+        largest = max(abs(truth.value) for truth in truths)
         found = [truth.read(made.level.values) for truth in truths]
         errors = [
-            np.inf if f is None else abs(f - t.reference.value)
-            for f, t in zip(found, truths, strict=True)
+            np.inf if f is None else abs(f - t.value) for f, t in zip(found, truths, strict=True)
         ]
         measures = {REACHED: made.accuracy.reached[quantity], TRUE: max(errors) / largest}
         outcome = "met" if made.accuracy.met else f"stopped: {made.accuracy.stopped}"
@@ -404,7 +394,7 @@ def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:
     """
 
     def uncertain(truth: Truth) -> float:
-        return truth.reference.uncertainty / abs(truth.reference.value)
+        return truth.uncertainty / abs(truth.value)
 
     for quantity in dict.fromkeys(truth.quantity for truth in known.truths):
         of_it = [truth for truth in known.truths if truth.quantity == quantity]
@@ -521,20 +511,25 @@ def _decided_rows_of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Ro
 
 
 def _coverage_table(title: str, groups: Sequence[Coverage]) -> Table:
-    return table_of(
-        title,
-        {
-            "group": lambda one: one.group.replace("_", " "),
-            "numbers": lambda one: str(one.covered.of),
-            "covered": lambda one: one.covered.text,
-            "tight": lambda one: one.tight.text,
-            "wide": lambda one: one.wide.text,
-            "false marks": lambda one: one.false_marks.text,
-            "not converged": lambda one: f"{one.apart.of}, covered {one.apart.count}",
-            "undecided": lambda one: str(one.undecided),
-            "not stated": lambda one: str(one.not_stated),
-        },
-        groups,
+    rows = (
+        (
+            one.group.replace("_", " "),
+            str(one.covered.of),
+            *(share.text for share in (one.covered, one.tight, one.wide, one.false_marks)),
+            f"{one.apart.of}, covered {one.apart.count}",
+            str(one.undecided),
+            str(one.not_stated),
+        )
+        for one in groups
+    )
+    return Table(
+        title=title,
+        columns=(
+            *("group", "numbers", "covered", "tight", "wide", "false marks"),
+            *("not converged", "undecided", "not stated"),
+        ),
+        rows=tuple(rows),
+        units=NONE,
     )
 
 
@@ -570,11 +565,6 @@ def _statement(coverage: Coverage, claim: str, outcome: Status) -> Statement:
         outcome=outcome,
         measured=f"covered {covered.text}, tight {coverage.tight.text}, of {covered.of} numbers",
         because=f"at least {ENOUGH} numbers decide",
-        about=Row(
-            parameters={"kind": coverage.group},
-            measures={"covered": covered.part, "tight": coverage.tight.part},
-            counters={"numbers": covered.of},
-        ),
     )
 
 
@@ -587,10 +577,6 @@ def _width_statement(total: Coverage) -> Statement:
         outcome=judged(good, complete=tight.of >= ENOUGH),
         measured=f"tight {tight.text}, wide {wide.text}, false marks {marks.text}",
         because=f"at least {ENOUGH} numbers decide",
-        about=Row(
-            measures={"tight": tight.part, "wide": wide.part, "false marks": marks.part},
-            counters={"numbers": tight.of},
-        ),
     )
 
 
@@ -613,7 +599,6 @@ def _request_statement(requests: Sequence[CaseRecord]) -> Statement:
         ),
         measured=f"{len(met)} of {len(requests)} met, {false} of them not by the true error, "
         f"largest true error {worst:.2f} of the request",
-        about=Row(measures={"worst": worst}, counters={"met": len(met), "false": false}),
     )
 
 

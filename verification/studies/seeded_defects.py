@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -11,7 +10,7 @@ from tempfile import TemporaryDirectory
 from verification.cases.catalogue import CASES, CaseToJudge, JudgedCase, case_of, choose, lost
 from verification.defects.defect import Defect, planted
 from verification.defects.registry import DEFECTS
-from verification.exhibits.chart import Table, plain, table_of
+from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import (
     IMBALANCE,
@@ -260,29 +259,24 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
 
 def _detection_table(found: list[Detection]) -> Table:
-    def of_clearest(text: Callable[[str, FailedVerdict], str]) -> Callable[[Detection], str]:
-        return lambda one: "–" if one.clearest is None else text(*one.clearest)
-
-    def votes(one: Detection) -> str:
-        if not one.verdicts:
-            return "missed" if one.complete else "not judged"
-        return f"{len(dict(one.verdicts))} of {len(one.cases)}"
-
-    return table_of(
-        "Seeded defects",
-        {
-            "defect": lambda one: one.defect.name,
-            "what is broken": lambda one: one.defect.broken,
-            "caught by": of_clearest(lambda case, verdict: f"{case}/{verdict.quantity}"),
-            "how": of_clearest(lambda _, verdict: verdict.how),
-            "error / allowed": of_clearest(
-                lambda _, verdict: "–" if verdict.clearance is None else plain(verdict.clearance, 2)
-            ),
-            "cases": votes,
-        },
-        found,
-        "The verdict that misses by most; an error in units of what is allowed.",
+    return Table(
+        title="Seeded defects",
+        columns=("defect", "what is broken", "caught by", "how", "error / allowed", "cases"),
+        rows=tuple(map(_detection_row, found)),
+        note="The verdict that misses by most; an error in units of what is allowed.",
+        units=NONE,
     )
+
+
+def _detection_row(one: Detection) -> tuple[str, ...]:
+    caught = how = error = "–"
+    votes = "missed" if one.complete else "not judged"
+    if one.clearest is not None:
+        case, verdict = one.clearest
+        caught, how = f"{case}/{verdict.quantity}", verdict.how
+        error = "–" if verdict.clearance is None else plain(verdict.clearance, 2)
+        votes = f"{len(dict(one.verdicts))} of {len(one.cases)}"
+    return one.defect.name, one.defect.broken, caught, how, error, votes
 
 
 REMARKS = (

@@ -49,6 +49,7 @@ from verification.judging.declared_case import (
     meshed,
 )
 from verification.judging.field_errors import pressure_at, shear_at
+from verification.norms import max_norm
 from verification.problems.cattaneo_mindlin import (
     FRETTING_WINDOW,
     OVER_LIMIT,
@@ -192,7 +193,7 @@ def _largest_error(
         part = answer.radii / problem.radius
         r = answer.radii[(part >= JUDGED[0]) & (part <= JUDGED[1])]
         error = at(result, r) - exact(answer)(r)[:, None]
-        return float(np.max(np.abs(error)) / problem.scale(scale))
+        return max_norm(error) / problem.scale(scale)
 
     return error_norm("traction", "", measure, scale)
 

@@ -35,7 +35,6 @@ from contact_scene.array_types import Field
 from contact_scene.discretised import DiscretisedSolver
 from contact_scene.friction import FrictionMap
 from contact_scene.geometry import ShapedBody
-from verification.problems.problem import Reference, ReferenceKind
 
 CELLS = "semi-analytical"
 ELEMENTS = "fem-complementarity"
@@ -83,14 +82,16 @@ KIND_OF = {quantity: kind for kind, names in KINDS.items() for quantity in names
 class Truth:
     """Hold one known number of a randomly drawn scene, with which a solver's result is compared.
 
-    step       number of the load step, from 1, at whose end the number is valid
-    quantity   registered name of the number; of a vector, the component along x
-    reference  value in SI, with its uncertainty
+    step         number of the load step, from 1, at whose end the number is valid
+    quantity     registered name of the number; of a vector, the component along x
+    value        known number [SI]
+    uncertainty  standard uncertainty of the known number [SI]
     """
 
     step: int
     quantity: str
-    reference: Reference
+    value: float
+    uncertainty: float
 
     @property
     def kind(self) -> str:
@@ -113,14 +114,12 @@ class Truth:
 class Fineness(NamedTuple):
     """Hold the discretisation with which a randomly drawn scene is solved and judged.
 
-    solver      name of the solver on the command line
-    asked       settings of the cells or of the elements
-    per_radius  number of cells or elements per contact radius
+    solver  name of the solver on the command line
+    asked   settings of the cells or of the elements
     """
 
     solver: str
     asked: SurfaceDiscretisation | FiniteElementDiscretisation
-    per_radius: float
 
 
 @dataclass(frozen=True)
@@ -143,19 +142,15 @@ class KnownScene:
         return SolverName(self.fineness.solver).solver(self.scene, self.fineness.asked)
 
 
-def known(
-    step: int, source: str, values: Mapping[str, float], uncertainty: float, kind: ReferenceKind
-) -> Iterator[Truth]:
+def known(step: int, values: Mapping[str, float], uncertainty: float) -> Iterator[Truth]:
     """Yield known numbers at the end of a load step, which have one relative uncertainty in common.
 
     step         number of the load step, from 1
-    source       source of the numbers
     values       numbers by registered name [SI]
     uncertainty  standard uncertainty relative to each number
-    kind         kind of the source
     """
     for quantity, value in values.items():
-        yield Truth(step, quantity, Reference(value, kind, source, uncertainty * abs(value)))
+        yield Truth(step, quantity, value, uncertainty * abs(value))
 
 
 Rng = np.random.Generator
@@ -513,11 +508,9 @@ def fineness(
     """
     if solver == ELEMENTS:
         count = round(logarithmic(rng, *ELEMENTS_PER_RADIUS))
-        return Fineness(
-            ELEMENTS, FiniteElementDiscretisation(elements_per_radius=count), float(count)
-        )
+        return Fineness(ELEMENTS, FiniteElementDiscretisation(elements_per_radius=count))
     width = float(rng.uniform(*WIDTHS))
     nx = int(np.clip(round(logarithmic(rng, *limits) * width), FEWEST, MOST - 1))
     window = (width * reach[0], width * float(rng.uniform(0.97, 1.1)) * reach[1])
     grid = SurfaceDiscretisation(cells=(nx, nx + int(rng.integers(0, 2))), window=window)
-    return Fineness(CELLS, grid, nx / width)
+    return Fineness(CELLS, grid)

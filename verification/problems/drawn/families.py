@@ -86,7 +86,7 @@ from verification.problems.drawn.drawing import (
     known,
     logarithmic,
 )
-from verification.problems.problem import ROUNDING, Reference, ReferenceKind
+from verification.problems.problem import ROUNDING
 
 WHOLE = "body"  # name of the region of the whole body
 
@@ -151,6 +151,18 @@ class Posed:
     forces: tuple[float, ...] = ()
     stressed: bool = False
 
+    @property
+    def load(self) -> float:
+        """Normal force of the first load step [force]."""
+        load = self.scene.loading[0].normal_force
+        assert load is not None
+        return load
+
+    def followed_by(self, steps: Iterable[LoadStep]) -> Scene:
+        """Return the scene with other load steps after the normal loading."""
+        loading = self.scene.loading[0], *steps
+        return self.scene.model_copy(update={"loading": loading})
+
     def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
         """Combine the scene with those of its known numbers that are judged.
 
@@ -166,13 +178,13 @@ class Posed:
         path, kept = scene.load_path(), []
         for truth in truths:
             name, step = truth.quantity, truth.step
-            value = f"{abs(truth.reference.value):.2g}", getattr(SCALARS.get(name), "unit", name)
+            value = f"{abs(truth.value):.2g}", getattr(SCALARS.get(name), "unit", name)
             repeated = step > 2 and sizes[step - 1] == sizes[1] and name not in PER_CYCLE
             shared = name == ENERGY and closes(self.forces)
             endless = name == PEAK and infinite
             still = name in LED and not any(sizes[:step])
             given = name in prescribed_scalars(path[step - 1], None)
-            absent = truth.reference.value == 0
+            absent = truth.value == 0
             if not (absent or repeated or shared or endless or still or given or value in seen):
                 kept.append(truth)
                 seen.add(value)
@@ -250,20 +262,12 @@ def by_rings(rng: Rng, posed: Posed) -> KnownScene:
     counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
     finer = replace(once.plan, increments=counts, fineness=DOUBLED)
     twice = radial.solve(posed.scene, plan=finer)
-    known = posed.known(_compared_truths(once, twice, posed.stressed))
+    truths = posed.known(_compared_truths(once, twice, posed.stressed)).truths
     if rng.random() >= BY_MOTION or len(posed.scene.loading) > 1:
-        return known
-    end, step = (
-        twice.steps[0],
-        Truth(1, NORMAL, _load_reference_value(posed.scene.loading[0].normal_force)),
-    )
+        return KnownScene(posed.scene, truths, posed.fineness)
+    end, step = twice.steps[0], Truth(1, NORMAL, posed.load, ROUNDING * posed.load)
     led = posed.scene.model_copy(update={"loading": (LoadStep(approach=end.approach),)})
-    return posed.known((*known.truths, step), led)
-
-
-def _load_reference_value(value: float | None) -> Reference:
-    assert value is not None
-    return Reference(value, ReferenceKind.OTHER_SOLVER, "the load", ROUNDING * value)
+    return posed.known((*truths, step), led)
 
 
 def _compared_truths(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
@@ -280,9 +284,7 @@ def _compared_truths(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
 
 
 def _ring_truth(step: int, name: str, value: float, apart: float) -> Truth:
-    uncertainty = max(apart, ROUNDING * abs(value))
-    reference = Reference(value, ReferenceKind.OTHER_SOLVER, "the ring solver", uncertainty)
-    return Truth(step, name, reference)
+    return Truth(step, name, value, max(apart, ROUNDING * abs(value)))
 
 
 def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
@@ -295,11 +297,9 @@ def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
     posed  scene without answer, with one load step
     """
     tip, grid = posed.scene.indenter, posed.fineness.asked
-    (step,) = posed.scene.loading
-    load = step.normal_force
+    load = posed.load
     assert isinstance(tip, Paraboloid)
     assert isinstance(grid, SurfaceDiscretisation)
-    assert load is not None
     upright = pressed(posed.scene, load)
     side = np.divide(grid.window or 0.0, grid.cells or 1)
     room = np.array(grid.window) / 2 - upright.radius - ROOM * side
@@ -311,8 +311,7 @@ def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
     del values[WORK]
     tilted = LoadStep(normal_force=load, **{named: both[named]})  # type: ignore[arg-type]
     scene = posed.scene.model_copy(update={"loading": (tilted,)})
-    truths = known(1, "a shifted paraboloid", values, ROUNDING, ReferenceKind.OTHER_SOLVER)
-    return posed.known(truths, scene)
+    return posed.known(known(1, values, ROUNDING), scene)
 
 
 @dataclass(frozen=True)
@@ -398,7 +397,7 @@ class Similar:
         if closes(forces):
             values[-1] |= {CYCLE: states[-1][2] - states[0][2]}
         for step, found in enumerate(values, start=1):
-            yield from known(step, "Jäger 1998", found, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+            yield from known(step, found, SIMILAR_ERROR)
 
 
 def similar(rng: Rng, posed: Posed) -> KnownScene:
@@ -412,7 +411,7 @@ def similar(rng: Rng, posed: Posed) -> KnownScene:
     made, scene = _similar_of(posed), posed.scene
     if rng.random() < BY_MOTION:
         shifts = (LoadStep(tangential_shift=(s[0], 0.0)) for s in made.along(posed.forces))
-        scene = scene.model_copy(update={"loading": (scene.loading[0], *shifts)})
+        scene = posed.followed_by(shifts)
     truths = [*made.truths(posed.forces)]
     if isinstance(scene.indenter, Paraboloid):
         truths += _ball_truths(made, posed)
@@ -430,13 +429,10 @@ def slid(rng: Rng, posed: Posed) -> KnownScene:
     made, tip = _similar_of(posed), posed.scene.indenter
     assert isinstance(tip, Paraboloid)
     far = FAR * made.mu * made.full.radius**2 / tip.radius
-    scene = posed.scene.model_copy(
-        update={"loading": (posed.scene.loading[0], LoadStep(tangential_shift=(far, 0.0)))}
-    )
+    scene = posed.followed_by([LoadStep(tangential_shift=(far, 0.0))])
+    # Hertz 1882 and Hamilton 1966.
     tension = {TENSION: _edge_tension(made, 0.0), TANGENTIAL: made.mu * made.load}
-    pressing = known(1, "Hertz 1882", made.full.values, ROUNDING, ReferenceKind.CLOSED_FORM)
-    sliding = known(2, "Hamilton 1966", tension, TURNED, ReferenceKind.CLOSED_FORM)
-    return posed.known((*pressing, *sliding), scene)
+    return posed.known((*known(1, made.full.values, ROUNDING), *known(2, tension, TURNED)), scene)
 
 
 def loops_in_gross_slip(rng: Rng, posed: Posed) -> KnownScene:
@@ -470,17 +466,10 @@ def loops_in_gross_slip(rng: Rng, posed: Posed) -> KnownScene:
         AMPLITUDE: float(slip[-1]),
         F1: float(np.max(mu * pressure * slip)),
     }
-    steps = tuple(LoadStep(tangential_shift=(shift, 0.0)) for shift in shifts)
-    scene = posed.scene.model_copy(update={"loading": (posed.scene.loading[0], *steps)})
-    kind = ReferenceKind.CLOSED_FORM
-    truths = [
-        *known(1, "Hertz 1882", full.values, ROUNDING, kind),
-        *(
-            truth
-            for step, found in enumerate(values, start=2)
-            for truth in known(step, "Jäger 1998, sliding", found, SIMILAR_ERROR, kind)
-        ),
-    ]
+    scene = posed.followed_by(LoadStep(tangential_shift=(shift, 0.0)) for shift in shifts)
+    truths = [*known(1, full.values, ROUNDING)]
+    for step, found in enumerate(values, start=2):
+        truths += known(step, found, SIMILAR_ERROR)
     return posed.known(truths, scene)
 
 
@@ -492,23 +481,20 @@ def oblique(rng: Rng, posed: Posed) -> KnownScene:
     """
     made, angle = _similar_of(posed), float(rng.uniform(0.2, 1.4))
     along = np.array([np.cos(angle), np.sin(angle)])
-    steps = tuple(LoadStep(tangential_force=tuple(force * along)) for force in posed.forces)
-    scene = posed.scene.model_copy(update={"loading": (posed.scene.loading[0], *steps)})
+    steps = (LoadStep(tangential_force=tuple(force * along)) for force in posed.forces)
+    scene = posed.followed_by(steps)
     truths = [
-        replace(truth, reference=replace(truth.reference, value=truth.reference.value * along[0]))
-        if truth.quantity in LED
-        else truth
+        replace(truth, value=truth.value * along[0]) if truth.quantity in LED else truth
         for truth in (*made.truths(posed.forces), *_ball_truths(made, posed))
     ]
     return posed.known(truths, scene)
 
 
 def _similar_of(posed: Posed) -> Similar:
-    load, friction = posed.scene.loading[0].normal_force, posed.scene.friction
-    assert load is not None
+    friction = posed.scene.friction
     assert friction is not None
     assert friction.uniform is not None
-    return Similar(posed.scene, load, friction.uniform)
+    return Similar(posed.scene, posed.load, friction.uniform)
 
 
 def _edge_tension(made: Similar, stick_radius: float) -> float:
@@ -536,7 +522,7 @@ def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
     force, a, full = posed.forces[0], made.full.radius, made.full
     values = {TENSION: _edge_tension(made, float(made.first(force)[1]))}
     if posed.fineness.solver == CELLS:
-        yield from known(2, "Hamilton 1966", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+        yield from known(2, values, SIMILAR_ERROR)
     if closes(posed.forces):
         modulus = contact_modulus(made.scene)
         cycled = CycledContact(PartialSlip(full.load, a, made.mu, modulus, force), full.peak)
@@ -544,7 +530,7 @@ def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
         if posed.fineness.solver == CELLS and cycled.largest_f2 > 0:
             values[F2] = cycled.largest_f2
         last = len(posed.forces) + 1
-        yield from known(last, "Ruiz 1984", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+        yield from known(last, values, SIMILAR_ERROR)
 
 
 def refined(rng: Rng, posed: Posed) -> KnownScene:
@@ -583,23 +569,16 @@ def _with_known_pressing(posed: Posed, truths: Iterable[Truth]) -> Iterator[Trut
     posed   scene without answer
     truths  known numbers of the scene by finer cells
     """
-    scene, load = posed.scene, posed.scene.loading[0].normal_force
     by_pressing: dict[str, float] = {}
-    if load is not None and not coupling(scene)[0]:
+    if not coupling(posed.scene)[0]:
         with suppress(UnsupportedScene):
-            by_pressing = pressed(scene, load).values
+            by_pressing = pressed(posed.scene, posed.load).values
     for truth in truths:
         value = by_pressing.get(truth.quantity)
         if value is None or (truth.quantity in (ELASTIC, WORK) and truth.step > 1):
             yield truth
         else:
-            yield from known(
-                truth.step,
-                "without friction",
-                {truth.quantity: value},
-                ROUNDING,
-                ReferenceKind.OTHER_SOLVER,
-            )
+            yield from known(truth.step, {truth.quantity: value}, ROUNDING)
 
 
 class _SolvedLevel(NamedTuple):
@@ -631,10 +610,6 @@ class _SolvedLevel(NamedTuple):
 def _refined_truths(
     fine: _SolvedLevel, less: _SolvedLevel, base: _SolvedLevel, *cut: _SolvedLevel
 ) -> Iterator[Truth]:
-    source = (
-        f"the same solver on {FINER[0]:g} and {FINER[1]:g} times the cells, with the effect of at "
-        f"least {MANY[0]} and {MANY[1]} increments a step"
-    )
     every = [level.steps for level in (fine, less, base, *cut)]
     for step, values in enumerate(zip(*every, strict=True), start=1):
         for name in (name for name in KIND_OF if all(name in level for level in values)):
@@ -644,8 +619,7 @@ def _refined_truths(
             apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
             if name in AT_EDGES:  # the edge may lie anywhere in a cell
                 apart = max(apart, fine.cell * abs(best))
-            reference = Reference(value, ReferenceKind.OWN_REFINEMENT, source, apart)
-            yield Truth(step, name, reference)
+            yield Truth(step, name, value, apart)
 
 
 # Seeds of the random numbers. The believed fraction 0.6 of the convergence orders was chosen with

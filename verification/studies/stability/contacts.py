@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -224,9 +224,6 @@ class CellRecord(TypedRow):
     increments: int = 0
     halvings: int = 0
     """Number of bisections of increments."""
-
-    rounds: int = 0
-    """Largest number of alternating iterations of pressure and shear in any increment."""
 
     way: str = ""
     """Solution method in words."""
@@ -922,20 +919,10 @@ MAX_WINDOWS = 4
 ELEMENTS_PER_HARMONIC = 2
 
 
-class SolvedContact(NamedTuple):
-    """Result of a solver for one contact of the stability map, with its solution method.
-
-    result  result of the solver
-    way     solution method in words
-    rounds  largest number of alternating iterations of pressure and shear in an increment
-    """
-
-    result: Any
-    way: str
-    rounds: int
+Solved = tuple[Any, str]  # result of a solver, and its solution method in words
 
 
-def by_superposition(posed: Posed) -> SolvedContact:
+def by_superposition(posed: Posed) -> Solved:
     """Solve a contact of the stability map with the semi-analytical solver.
 
     If the contact reaches the edge of the window, the solve is repeated in a wider window.
@@ -943,12 +930,10 @@ def by_superposition(posed: Posed) -> SolvedContact:
     posed  scene and surface grid of the contact
     """
     result = _solve_in_window(posed)
-    return SolvedContact(
-        result, _method_text(result.plan), max(i.rounds for i in result.increments)
-    )
+    return result, _method_text(result.plan)
 
 
-def by_elements(posed: Posed, method: Method) -> SolvedContact:
+def by_elements(posed: Posed, method: Method) -> Solved:
     """Solve a contact of the stability map with finite elements.
 
     posed   scene and discretisation of the contact
@@ -966,11 +951,10 @@ def by_elements(posed: Posed, method: Method) -> SolvedContact:
     )
     result = fem_reference.solve(posed.scene, discretisation, method)
     ways = sorted({i.path for i in result.increments if i.path is not None})
-    way = "; ".join([result.plan.path.value, *ways])
-    return SolvedContact(result, way, max(i.sweeps for i in result.increments))
+    return result, "; ".join([result.plan.path.value, *ways])
 
 
-SOLVERS: dict[Solver, Callable[[Posed], SolvedContact]] = {
+SOLVERS: dict[Solver, Callable[[Posed], Solved]] = {
     Solver.SEMI_ANALYTICAL: by_superposition,
     Solver.COMPLEMENTARITY: partial(by_elements, method=Method.COMPLEMENTARITY),
     Solver.PENALTY: partial(by_elements, method=Method.PENALTY),
@@ -1013,7 +997,7 @@ def judge_contact(cell: StabilityCell) -> CellRecord:
         return _failure_record(Verdict.REFUSED, error, TOLERANCE)
     tolerance = posed.tolerance
     try:
-        result, way, rounds = SOLVERS[cell.solver](posed)
+        result, way = SOLVERS[cell.solver](posed)
     except REFUSALS as error:
         return _failure_record(Verdict.REFUSED, error, tolerance)
     except SolverError as error:
@@ -1030,7 +1014,6 @@ def judge_contact(cell: StabilityCell) -> CellRecord:
         observed=finite(seen),
         increments=len(increments),
         halvings=sum(increment.halvings for increment in increments),
-        rounds=rounds,
         way=way,
         iterations=sum(increment.iterations for increment in increments),
         convolutions=sum(increment.convolutions or 0 for increment in increments),

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from verification.exhibits.chart import (
+    NONE,
     Chart,
     Curve,
     Look,
@@ -17,7 +18,6 @@ from verification.exhibits.chart import (
     curve,
     plain,
     stacked,
-    table_of,
 )
 from verification.judging.case import OTHER_NORMS, Level
 from verification.running.study import (
@@ -370,37 +370,41 @@ def tables(found: Found) -> tuple[Table, ...]:
 
 
 def _solver_table(found: Found) -> Table:
-    cells = {solver: contacts_of_solver(found, solver) for solver in Solver}
-    solved = {
-        solver: [*contacts_with_verdict(of, Verdict.CONVERGED).values()]
-        for solver, of in cells.items()
-    }
-    return table_of(
-        "The solvers",
-        {
-            "solver": lambda s: NAMES[s],
-            "cells": lambda s: str(len(cells[s])),
-            **{v: lambda s, v=v: str(len(contacts_with_verdict(cells[s], v))) for v in Verdict},  # type: ignore[misc]
-            "largest residual": lambda s: _largest_text(r.residual for r in solved[s]),
-            "from the fields": lambda s: _largest_text(r.observed for r in solved[s]),
-            "increments": lambda s: str(sum(r.increments for r in solved[s])),
-            "work": lambda s: str(sum(r.work for r in solved[s])),
-        },
-        Solver,
-        "Work: convolutions of the semi-analytical solver, linear systems of the finite elements.",
+    return Table(
+        title="The solvers",
+        columns=(
+            *("solver", "cells", *Verdict),
+            *("largest residual", "from the fields", "increments", "work"),
+        ),
+        rows=tuple(_solver_row(solver, contacts_of_solver(found, solver)) for solver in Solver),
+        note="Work: convolutions of the semi-analytical solver, linear systems of the finite "
+        "elements.",
+        units=NONE,
+    )
+
+
+def _solver_row(solver: Solver, cells: Found) -> tuple[str, ...]:
+    solved = contacts_with_verdict(cells, Verdict.CONVERGED).values()
+    return (
+        NAMES[solver],
+        str(len(cells)),
+        *(str(len(contacts_with_verdict(cells, verdict))) for verdict in Verdict),
+        _largest_text(record.residual for record in solved),
+        _largest_text(record.observed for record in solved),
+        str(sum(record.increments for record in solved)),
+        str(sum(record.work for record in solved)),
     )
 
 
 def _unsolved_table(bad: list[Item]) -> Table:
-    return table_of(
-        f"Not solved: all of these {len(bad)} cells",
-        {
-            "cell": lambda i: i[0].name,
-            "verdict": lambda i: i[1].verdict,
-            "worst residual": lambda i: _number_text(i[1].worst),
-            "reason": lambda i: i[1].reason or "–",
-        },
-        bad,
+    return Table(
+        title=f"Not solved: all of these {len(bad)} cells",
+        columns=("cell", "verdict", "worst residual", "reason"),
+        rows=tuple(
+            (cell.name, record.verdict, _number_text(record.worst), record.reason or "–")
+            for cell, record in bad
+        ),
+        units=NONE,
     )
 
 
