@@ -52,6 +52,7 @@ from contact_scene.quantities.stated_error import (
 )
 from radial.discretised import RingSolver
 from semi_analytical import solve
+from semi_analytical.frf.depth import Level
 from slipstick import stated_errors
 from verification.closed_forms.huber_stress import huber_stress, trailing_edge_tension
 
@@ -189,7 +190,7 @@ def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monk
             depth=depth, stress=np.full((6, 2), float(one.state is not state))
         ),
     )
-    _, (near, below) = stress_at(state, depth, depth, [])
+    _, (near, below), _ = stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
 
 
@@ -289,6 +290,25 @@ def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path: 
     known = extremes(body_response(state_of_result(fine, None)).stress())
     for rough, exact, error in zip(found, known, stress_errors(state, field, found), strict=True):
         assert abs(rough.value - exact.value) <= size(error) <= 0.1 * exact.value
+    x = A * np.array([0.4, 0.94, 0.69, 0.69, 1.3])
+    y = A * np.array([1.1, -1.42, 0.44, 0.57, -0.35])
+    z = A * np.array([0.0, 0.49, 0.36, 0.23, 0.32])
+    levels = [Level(float(depth), 0) for depth in z]
+    here, errors, unknown = stress_at(state, x, y, levels)
+    there, _, _ = stress_at(state_of_result(fine, None), x, y, levels, error=False)
+    apart = np.max(np.abs(here.stress - there.stress), axis=0)
+    assert np.all((apart <= errors) & (errors <= 10 * apart))
+    assert not unknown
+
+
+def test_a_run_without_its_number_of_rings_states_no_error_at_points() -> None:
+    """As stored before the file had this number."""
+    pushed = scene(PRESS, push(0.5, increments=1), body=steel())
+    state = state_of_result(package.solve(pushed, "radial", RadialDiscretisation()), None)
+    at, levels = np.array([0.1 * A]), [Level(0.1 * A, 0)]
+    _, errors, unknown = stress_at(replace(state, ring_fineness=None), at, at, levels)
+    assert np.all(np.isnan(errors))
+    assert "run the scene again" in unknown
 
 
 def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any) -> None:
@@ -305,7 +325,7 @@ def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch: Any)
     )
     monkeypatch.setattr(
         "contact_errors.stress_errors._below_other_rings",
-        lambda *_: [(2.0, [body.value, layer.value, 0.5 * surface.value])],
+        lambda *_: [(2.0, np.array([body.value, layer.value, 0.5 * surface.value]))],
     )
     *inside, above = stress_errors(state, field, [body, layer, surface])
     assert surface.value < layer.value == body.value
