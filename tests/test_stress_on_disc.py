@@ -20,7 +20,7 @@ import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.files import SECTION, write_files
-from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.loaded_bodies import state_of_increment, state_of_result
 from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
@@ -140,6 +140,17 @@ def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring() -> None:
     p = np.sqrt(np.where(s > 0, 0.02 + s**2, 0.0))[:, None] * np.ones_like(angles)
     circle = fit_tangential_circle(radii, angles, 0 * p, 0 * p, p)
     assert_allclose([circle.radius, circle.centre], [1.0, 0.0], atol=0.1)
+
+
+def test_a_contact_within_few_rings_ends_among_them() -> None:
+    """A fit of five rings also has a zero far inside, at 0.4 of the contact radius."""
+    press = LoadStep(normal_force=2.0, increments=4)
+    push = LoadStep(tangential_force=(0.24, 0.0), increments=1)
+    friction = CoulombFriction(coefficient=0.2)
+    posed = scene_of(BARE).replace({"loading": (press, push), "friction": friction})
+    result: Any = radial.solve(posed)
+    half = state_of_increment(result, 1, 2)
+    assert OnDisc(half).radial_body.parts.radius == pytest.approx(half.contact_radius, rel=0.05)
 
 
 @pytest.mark.parametrize("scatters", [False, True])
