@@ -147,7 +147,8 @@ def _refuse_few(rings: int) -> None:
     if rings < FEWEST:
         raise UnsupportedScene(
             f"{rings} rings resolve the edge of the contact, and the stress below the surface "
-            f"requires {FEWEST}. Use a step with a larger contact, or {ELSEWHERE}"
+            f"requires {FEWEST}. The rings lie over the largest contact of the history: remove "
+            f"later load steps with a larger contact from the scene, or {ELSEWHERE}"
         )
 
 
