@@ -387,3 +387,24 @@ def test_the_error_of_a_stress_contains_that_of_a_small_section() -> None:
     value, error = largest_tension(package.solve(posed, "fem", elements(16, box=15.0)))
     assert 0.1 * exact < abs(value - exact) <= size(error) < 0.3 * exact
     assert error.parts["section"] > error.parts["elements"]
+
+
+@pytest.mark.parametrize(
+    ("half_width", "edge_radius", "thickness", "stiffer"),
+    [(0.5, 0.018, 0.5, 2.0), (1.0, 0.005, 1.0, 0.5)],
+)
+def test_the_force_at_an_unresolved_edge_is_not_spread_over_the_contact(
+    half_width: float, edge_radius: float, thickness: float, stiffer: float
+) -> None:
+    """The pressure peak of a rounded edge lies within an element, and carries 5 % of the force."""
+    layer = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
+    body = Body(material=steel(), layers=(layer,))
+    strip = Strip(half_width=half_width * A, edge_radius=edge_radius, material=RIGID)
+    posed = scene({"normal_force": 2e5}, indenter=strip, body=body, friction=None)
+    on_strips = package.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=256))
+    name = "von_mises@base"
+    ((exact, _),) = largest_stresses(on_strips, None, [name]).values()
+    result = package.solve(posed, "fem", elements(12))
+    ((value, error),) = largest_stresses(result, stated_errors(result), [name]).values()
+    assert error is not None
+    assert abs(value - exact) <= size(error) <= 0.02 * exact
