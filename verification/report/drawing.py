@@ -130,9 +130,14 @@ def _label_decades(ax: Any, most: int, least: tuple[float, float]) -> None:
             places = np.outer(powers, parts)
             if np.count_nonzero((low <= places) & (places <= high)) > 1:
                 axis.set_major_locator(LogLocator(subs=parts, numticks=most))
+                digits = 3
             else:
                 axis.set_major_locator(MaxNLocator(SHORT_TICKS))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+                # Ticks of a short axis differ in digits that a number of three digits lacks.
+                digits = max(3, 2 + int(np.ceil(-np.log10(high / low - 1))))
+            axis.set_major_formatter(
+                FuncFormatter(lambda value, _, digits=digits: plain(value, digits))
+            )
             axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
 
