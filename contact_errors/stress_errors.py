@@ -27,10 +27,11 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
   near the surface.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from math import hypot, inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +52,7 @@ from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
     NoSuchState,
+    state_of_increment,
     state_of_result,
 )
 from contact_results.stress.on_disc import OnDisc
@@ -65,7 +67,7 @@ from contact_results.stress.stress_maxima import (
 from contact_scene import RadialDiscretisation, Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
-from contact_scene.discretised import PRECISION
+from contact_scene.discretised import PRECISION, Fineness
 from contact_scene.quantities.stated_error import (
     Part,
     StatedError,
@@ -73,9 +75,6 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from radial.discretised import RingSolver
-
-if TYPE_CHECKING:
-    from semi_analytical.frf.depth import Level
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]
@@ -153,28 +152,46 @@ def largest_stresses(
 
 
 def stress_at(
-    state: LoadedBodies, x: Field, y: Field, levels: Sequence[Any], *, indenter: bool = False
-) -> tuple[StressPoints, Field]:
+    state: LoadedBodies,
+    x: Field,
+    y: Field,
+    levels: Sequence[Any],
+    *,
+    indenter: bool = False,
+    error: bool = True,
+) -> tuple[StressPoints, Field, str]:
     """Compute the stress at points in a body, with an error estimate at each point.
 
     Returns the points with their stress, and the largest error of the stress components at each
-    point (n,) [force/length^2]. Raises UnsupportedScene for finite elements.
+    point (n,) [force/length^2]. Unknown errors are not a number, and the third value is the reason.
+    Raises UnsupportedScene for finite elements.
+
+    Below shear that depends on the rings of the radial solver, the error by the rings is added. Its
+    components scatter alike, so that the sum of their squares estimates the largest one.
 
     state     bodies and surface tractions
     x, y      coordinates of the points (n,) [length]
     levels    depth and material of each of the n points
     indenter  true for points in the indenter, false for points in the lower body
+    error     false to omit the errors
     """
     response = body_response(state, indenter=indenter)
     here = response.stress_at(x, y, levels)
+    unknown = np.full(len(x), np.nan)
+    if not error:
+        return here, unknown, ""
     others = [one.stress_at(x, y, levels) for one in response.compared()]
-    if state.pressed is not None:
-        per_spread = np.full(len(x), OF_FINER)
-    else:
-        near = here.depth < NEAR * _traction_cell_width(state)
-        per_spread = np.where(near, _error_per_spread(ROOT), _error_per_spread(SMOOTH))
     apart = [np.max(np.abs(here.stress - other.stress), axis=0) for other in others]
-    return here, per_spread * np.sqrt(np.mean(np.square(apart), axis=0))
+    spread = np.sqrt(np.mean(np.square(apart), axis=0))
+    near = here.depth < NEAR * _traction_cell_width(state)
+    if not isinstance(response, OnDisc):
+        per_spread = np.where(near, _error_per_spread(ROOT), _error_per_spread(SMOOTH))
+        return here, per_spread * spread, ""
+    rings = _below_other_rings(response, lambda one: one.stress_at(x, y, levels).stress)
+    if isinstance(rings, str):
+        return here, unknown, rings
+    by_rings = _error_by_rings(here.stress, rings, np.where(near, ROOT, SMOOTH))
+    return here, OF_FINER * spread + np.hypot.reduce(by_rings), ""
 
 
 def stress_errors(
@@ -450,23 +467,20 @@ def _stress_errors_on_disc(
             more = finer.with_more_shear(state.shear_error).stress_at(x, y, levels).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
-    others = _below_other_rings(response, found, levels, moves)
+    others = _below_other_rings(
+        response, lambda one: np.array(one.values_near(found, levels, moves))
+    )
     if isinstance(others, str):
         return (unknown_error(others),) * len(found)
-    sizes = []
-    for k, e in enumerate(found):
-        excess, _ = excess_between_depths(points, measures[e.measure], e)
-        size = OF_FINER * abs(again[k] - e.value) + OF_PARABOLA * excess
-        order = EDGE if moves[k] else SMOOTH
-        spreads = [
-            (e.value - values[k]) ** 2 / (ratio ** (2 * order) + 1) for ratio, values in others
-        ]
-        sizes.append(size + (SPREADS * sqrt(np.mean(spreads)) if spreads else 0.0))
+    values = np.array([e.value for e in found])
+    excess = np.array([excess_between_depths(points, measures[e.measure], e)[0] for e in found])
+    sizes = OF_FINER * np.abs(again - values) + OF_PARABOLA * excess
+    sizes += _error_by_rings(values, others, np.where(moves, EDGE, SMOOTH))
     errors = []
     for k, e in enumerate(found):
         # The largest stress of a region may be another one of its maxima.
         size = max(
-            other.value + error - e.value
+            float(other.value + error - e.value)
             for other, error in zip(found, sizes, strict=True)
             if other.measure == e.measure and response.contains(e.region, other.region)
         )
@@ -482,43 +496,59 @@ def _stress_errors_on_disc(
 
 
 def _below_other_rings(
-    response: OnDisc, found: Sequence[Extreme], levels: Sequence["Level"], moves: Sequence[bool]
-) -> list[tuple[float, list[float]]] | str:
-    """Compute largest stresses below the tractions of two solves with other numbers of rings.
+    response: OnDisc, evaluate: Callable[[OnDisc], NDArray[np.float64]]
+) -> list[tuple[float, Field]] | str:
+    """Evaluate a body below the tractions of two solves with other numbers of rings.
 
     These have half and two thirds of the rings, or half more of them in place of a solve whose
-    rings do not determine the edge of the contact. The whole history is solved, because rings are
-    laid over its largest contact.
+    rings do not determine the edge of the contact.
 
-    Returns the ratio of the rings with the stresses for each solve, and none if the tractions do
-    not depend on the number of rings. The result is a reason if the stresses are unknown.
+    Returns the ratio of the rings with the value for each solve, and none if the tractions do not
+    depend on the number of rings. The result is a reason if no value is known.
 
     response  body below the tractions of the radial solver
-    found     largest stress of each region and measure
-    levels    depth and layer of each of them
-    moves     true for those whose place depends on the tractions
+    evaluate  function of the body below other tractions, such as its stress at points
     """
     state = response.state
     if state.scene is None or not is_sheared(state):
         return []
     scene = state.scene.model_copy(update={"contact_stiffness": False})
     run = state.ring_fineness
-    solver = RingSolver(scene, RadialDiscretisation(tolerance=run.tolerance if run else 1.0))
+    solver = RingSolver(scene, RadialDiscretisation())
     if not solver.depends_on_rings:
         return []
     if run is None:
         return "the run does not state its number of rings: run the scene again"
-    others: list[tuple[float, list[float]]] = []
+    others: list[tuple[float, Field]] = []
     reason = ""
     for share in (*(share for _, share, _ in solver.shares), MORE_RINGS):
         if len(others) == len(solver.shares):
             break
         try:
-            result = solver.solve(replace(run, space=share * run.space))
-            coarse = state_of_result(result, state.step)
+            history = _solve_on_rings(solver, replace(run, space=share * run.space))
+            if isinstance(history, SolverError):
+                raise history
+            coarse = state_of_increment(history, state.step, state.increment)
             coarse = replace(coarse, strain=state.strain, body=state.body, indenter=state.indenter)
-            below = replace(response, state=coarse)
-            others.append((1 / share, below.values_near(found, levels, moves)))
+            others.append((1 / share, evaluate(replace(response, state=coarse))))
         except (SolverError, NoSuchState) as error:
             reason = f"with other numbers of rings, {error}"
     return others or reason
+
+
+@lru_cache(maxsize=3)
+def _solve_on_rings(solver: RingSolver, fineness: Fineness) -> radial.Result | SolverError:
+    """Solve the whole history, because rings are laid over its largest contact."""
+    try:
+        return solver.solve(fineness)
+    except SolverError as error:
+        return error
+
+
+def _error_by_rings(value: Field, others: Sequence[tuple[float, Field]], order: Field) -> Field:
+    """Estimate errors of the given convergence orders from the ratio of rings and the
+    values of other solves; 0 without other solves."""
+    if not others:
+        return np.zeros_like(value)
+    spreads = [(value - other) ** 2 / (ratio ** (2 * order) + 1) for ratio, other in others]
+    return SPREADS * np.sqrt(np.mean(spreads, axis=0))

@@ -159,6 +159,8 @@ SYMBOLS = {
     **{"slip_amplitude": "slip\namplitude", "ruiz_f1": "F1", "ruiz_f2": "F2"},
     "stick_centre": "centre of\nstick",
 }
+# Line below the table on a terminal. The page of a run explains all symbols.
+LOOPS = "E_d: energy per cycle; δ_g: half opening of the loop; A = E_d/4Q*δ*; µ_e = E_d/4Wδ_g"
 # Numbers in tables: those of load steps, and those of load cycles.
 SHOWN = (*(name for name, mark in SCALARS.items() if mark.key), *SYMBOLS)
 PRODUCTS = {

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from contact_results.directory.file_names import STRESS, STRESS_PAGE
 from contact_results.directory.run_directory import files_at_once
 from contact_results.files.csv_file import STEP, Column, write_meanings, write_table
@@ -99,7 +101,7 @@ def write_history(
             each.step,
             each.index,
             *p.stress[:, n].tolist(),
-            float(each.errors[n]),
+            None if np.isnan(each.errors[n]) else float(each.errors[n]),
             *(float(field[n]) for field in (p.von_mises, *p.principal)),
         )
         for n in range(count)

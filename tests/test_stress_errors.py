@@ -49,6 +49,7 @@ from contact_scene.quantities.stated_error import (
 )
 from radial.discretised import RingSolver
 from semi_analytical import solve
+from semi_analytical.frf.depth import Level
 from slipstick import stated_errors
 from verification.closed_forms.huber_stress import huber_stress, trailing_edge_tension
 
@@ -184,7 +185,7 @@ def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monk
             depth=depth, stress=np.full((6, 2), float(one.state is not state))
         ),
     )
-    _, (near, below) = stress_at(state, depth, depth, [])
+    _, (near, below), _ = stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
 
 
@@ -279,6 +280,25 @@ def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path):
     known = extremes(body_response(state_of_result(fine, None)).stress())
     for rough, exact, error in zip(found, known, stress_errors(state, field, found), strict=True):
         assert abs(rough.value - exact.value) <= size(error) <= 0.1 * exact.value
+    x = A * np.array([0.4, 0.94, 0.69, 0.69, 1.3])
+    y = A * np.array([1.1, -1.42, 0.44, 0.57, -0.35])
+    z = A * np.array([0.0, 0.49, 0.36, 0.23, 0.32])
+    levels = [Level(float(depth), 0) for depth in z]
+    here, errors, unknown = stress_at(state, x, y, levels)
+    there, _, _ = stress_at(state_of_result(fine, None), x, y, levels, error=False)
+    apart = np.max(np.abs(here.stress - there.stress), axis=0)
+    assert np.all((apart <= errors) & (errors <= 10 * apart))
+    assert not unknown
+
+
+def test_a_run_without_its_number_of_rings_states_no_error_at_points() -> None:
+    """As stored before the file had this number."""
+    pushed = scene(PRESS, push(0.5, increments=1), body=steel())
+    state = state_of_result(package.solve(pushed, "radial", RadialDiscretisation()), None)
+    at, levels = np.array([0.1 * A]), [Level(0.1 * A, 0)]
+    _, errors, unknown = stress_at(replace(state, ring_fineness=None), at, at, levels)
+    assert np.all(np.isnan(errors))
+    assert "run the scene again" in unknown
 
 
 def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch):
@@ -295,7 +315,7 @@ def test_a_largest_stress_may_be_another_maximum_of_its_region(monkeypatch):
     )
     monkeypatch.setattr(
         "contact_errors.stress_errors._below_other_rings",
-        lambda *_: [(2.0, [body.value, layer.value, 0.5 * surface.value])],
+        lambda *_: [(2.0, np.array([body.value, layer.value, 0.5 * surface.value]))],
     )
     *inside, above = stress_errors(state, field, [body, layer, surface])
     assert surface.value < layer.value == body.value
@@ -357,3 +377,24 @@ def test_the_error_of_a_stress_contains_that_of_a_small_section():
     value, error = largest_tension(package.solve(posed, "fem", elements(16, box=15.0)))
     assert 0.1 * exact < abs(value - exact) <= size(error) < 0.3 * exact
     assert error.parts["section"] > error.parts["elements"]
+
+
+@pytest.mark.parametrize(
+    ("half_width", "edge_radius", "thickness", "stiffer"),
+    [(0.5, 0.018, 0.5, 2.0), (1.0, 0.005, 1.0, 0.5)],
+)
+def test_the_force_at_an_unresolved_edge_is_not_spread_over_the_contact(
+    half_width: float, edge_radius: float, thickness: float, stiffer: float
+) -> None:
+    """The pressure peak of a rounded edge lies within an element, and carries 5 % of the force."""
+    layer = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
+    body = Body(material=steel(), layers=(layer,))
+    strip = Strip(half_width=half_width * A, edge_radius=edge_radius, material=RIGID)
+    posed = scene({"normal_force": 2e5}, indenter=strip, body=body, friction=None)
+    on_strips = package.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=256))
+    name = "von_mises@base"
+    ((exact, _),) = largest_stresses(on_strips, None, [name]).values()
+    result = package.solve(posed, "fem", elements(12))
+    ((value, error),) = largest_stresses(result, stated_errors(result), [name]).values()
+    assert error is not None
+    assert abs(value - exact) <= size(error) <= 0.02 * exact

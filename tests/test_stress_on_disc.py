@@ -16,7 +16,7 @@ import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import body_response
 from contact_results.stress.files import SECTION, write_files
-from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.loaded_bodies import state_of_increment, state_of_result
 from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
@@ -31,6 +31,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.geometry import ShapedBody
+from contact_scene.solver_errors import UnsupportedScene
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
 from radial.stress.circle_fit import axisymmetric_circle, fit_tangential_circle
@@ -135,6 +136,29 @@ def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring():
     assert_allclose([circle.radius, circle.centre], [1.0, 0.0], atol=0.1)
 
 
+def test_a_contact_within_few_rings_ends_among_them() -> None:
+    """A fit of five rings also has a zero far inside, at 0.4 of the contact radius."""
+    press = LoadStep(normal_force=2.0, increments=4)
+    push = LoadStep(tangential_force=(0.24, 0.0), increments=1)
+    friction = CoulombFriction(coefficient=0.2)
+    posed = scene_of(BARE).replace({"loading": (press, push), "friction": friction})
+    result: Any = radial.solve(posed)
+    half = state_of_increment(result, 1, 2)
+    assert OnDisc(half).radial_body.parts.radius == pytest.approx(half.contact_radius, rel=0.05)
+
+
+def test_a_small_contact_has_its_stress_without_the_later_larger_one() -> None:
+    friction = CoulombFriction(coefficient=0.2)
+    small = LoadStep(normal_force=0.03, increments=1)
+    push = LoadStep(tangential_force=(0.003, 0.0), increments=1)
+    larger = LoadStep(normal_force=2.0, increments=1)
+    posed = scene_of(BARE).replace({"loading": (small, push, larger), "friction": friction})
+    with pytest.raises(UnsupportedScene, match="remove later load steps with a larger contact"):
+        OnDisc(state_of_result(slipstick.solve(posed, "radial"), 2)).stress([0.1])
+    alone = slipstick.solve(posed.replace({"loading": (small, push)}), "radial")
+    assert OnDisc(state_of_result(alone, 2)).stress([0.1]).points.x.size
+
+
 @pytest.mark.parametrize("scatters", [False, True])
 def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatters):
     radii = np.append(np.linspace(0.0, 0.98, 25), [0.992, 0.996, 0.9999, 1.01, 1.2])
@@ -142,6 +166,16 @@ def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatte
     p[-5:-2] *= np.array([0.8, 1.3, 5.0]) if scatters else 1.0
     circle = axisymmetric_circle(radii, 1.0, 0.1 * p, 0.2 * p, p, on_points=scatters)
     assert_allclose(circle.smooth[..., 0], np.ones((3, 241)) * [[0.1], [0.2], [1.0]], rtol=1e-9)
+
+
+def test_one_point_may_need_several_blocks_of_quadrature_points() -> None:
+    loaded = circle_of(lambda e, t: MU, lambda e, t: 0.0, lambda e, t: 1.0)
+    near, depth = np.array([1 - 1e-6]), 1e-6
+    usual, fine = (
+        below_circle(loaded, HalfSpace(G, NU), near, 0 * near, depth, fineness)
+        for fineness in (1, 8)
+    )
+    assert_allclose(usual, fine, rtol=1e-3, atol=1e-3)
 
 
 @pytest.mark.parametrize("r", [1.0, 1 + 4.0**-5, 1 - 4.0**-5, 0.5])

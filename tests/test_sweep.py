@@ -1,7 +1,10 @@
 """Tests of the ticks and labels of the chart of `slipstick sweep`."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from command import succeeded
 from matplotlib.figure import Figure
 
 from contact_results.figures.style import round_ticks
@@ -49,3 +52,15 @@ def test_a_map_states_errors_only_if_there_are_any(errors, title):
     values = np.full((2, 1, 1), 5e-6)
     _draw_map(ax, SweptQuantity("approach", "m", values, np.reshape(errors, (2, 1, 1))), *keys)
     assert ax.get_title() == title
+
+
+def test_an_estimate_of_time_states_that_it_lacks_the_stresses(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("slipstick.cli.commands.sweep.LONG_SWEEP", 2)
+    hertz = Path(__file__).parents[1] / "scenes" / "hertz.toml"
+    vary = "indenter.radius=10..11 mm 2"
+    for name, lacks in (("von_mises@body", True), ("approach", False)):
+        options = ("--get", name, "--solver", "radial", "--no-error", "-o", name)
+        said = succeeded("sweep", hertz, "--vary", vary, *options, cwd=tmp_path).stdout
+        assert ("without that of the stresses" in " ".join(said.split())) == lacks

@@ -81,6 +81,7 @@ class LoadedBodies:
     scene           scene of the result; None if unknown
     ring_fineness   rings and increments of the radial solver; None for other solvers, and if a
                     stored run does not state them
+    increment       increment within the load step, from 1
     """
 
     title: str
@@ -104,6 +105,7 @@ class LoadedBodies:
     strain: Strain | None = None
     scene: Scene | None = None
     ring_fineness: Fineness | None = None
+    increment: int = 1
 
     @property
     def on_rings(self) -> bool:
@@ -194,15 +196,23 @@ def state_of_result(
     return _require_contact(loaded_bodies(result, surface, ends[number], stated, of_shear))
 
 
-def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield bodies and tractions at the end of every increment of a result.
+def state_of_increment(result: Result, step: int, increment: int) -> LoadedBodies:
+    """Return bodies and tractions at the end of an increment of a result.
 
-    Each item contains load step, increment within the load step, both from 1, and the bodies with
-    their tractions. For separated bodies, the third part is None.
+    step       load step, from 1
+    increment  increment within the load step, from 1
+
+    Raises NoSuchState if the bodies are separated.
     """
+    (end,) = (one for one in result.increments if (one.step, one.index) == (step, increment))
+    return _require_contact(loaded_bodies(result, surface_of(result), end))
+
+
+def states_of_result(result: Result) -> Iterator[LoadedBodies]:
+    """Yield bodies and tractions at the ends of all increments of a result that have contact."""
     surface = surface_of(result)
-    for increment in result.increments:
-        yield increment.step, increment.index, loaded_bodies(result, surface, increment)
+    states = (loaded_bodies(result, surface, increment) for increment in result.increments)
+    return (state for state in states if state is not None)
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
@@ -221,10 +231,8 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
         return _require_contact(state)
 
 
-def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield bodies and tractions at the end of every increment of a stored run.
-
-    The items are those of `states_of_result`.
+def states_of_run(directory: Path) -> Iterator[LoadedBodies]:
+    """Yield bodies and tractions at the ends of all increments of a run that have contact.
 
     directory  directory of the run
 
@@ -233,8 +241,9 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
     """
     with _open_run(directory) as run:
         for number in range(len(run.increments["step"].array)):
-            end = run.increment(number)
-            yield int(end.step), int(end.index), loaded_bodies(run, run.surface, end)
+            state = loaded_bodies(run, run.surface, run.increment(number))
+            if state is not None:
+                yield state
 
 
 @contextmanager
@@ -300,6 +309,7 @@ def loaded_bodies(
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
         scene=scene,
         ring_fineness=getattr(source, "ring_fineness", None),
+        increment=int(end.index),
     )
 
 

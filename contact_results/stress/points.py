@@ -217,7 +217,8 @@ class StressIncrement:
     index   increment within the load step, from 1; None if the history has the ends of load steps
             only
     points  stress at the n points
-    errors  stated error of every stress component, one number per point (n,) [force/length^2]
+    errors  stated error of every stress component, one number per point (n,) [force/length^2]; not
+            a number if unknown
     """
 
     step: int

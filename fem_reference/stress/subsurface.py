@@ -147,19 +147,22 @@ def _load_preserving_amplitudes(
     """Compute amplitudes at the integration points with the normal force of the contact solve.
 
     The resultant of interpolated tractions differs from it: the tractions lack those between the
-    last Gauss point and a rim, and gain towards an edge where they are interpolated by a root. All
-    amplitudes are therefore multiplied by the ratio of the forces.
+    last Gauss point and a rim, and err towards an edge where they are extrapolated by a root. The
+    amplitudes near the edge are therefore multiplied. A factor on all tractions would change the
+    stress far from the edge as well.
 
     length  unit of length of the mesh [length]
     """
     found = tractions.amplitudes(points.radii * length)
     if tractions.normal_force is None:
         return found
-    force = 2 * length * float(found[0].values[-1] @ points.weighted.sum(axis=0))
+    forces = 2 * length * found[0].values[-1] * points.weighted.sum(axis=0)
     if not tractions.plane:
-        force *= pi * length
-    ratio = tractions.normal_force / force
-    return [replace(part, values=part.values * ratio) for part in found]
+        forces *= pi * length
+    last = points.radii * length > tractions.extrapolated_from
+    lacking = tractions.normal_force - np.sum(forces)
+    factor = np.where(last, 1 + lacking / np.sum(forces[last]), 1.0)
+    return [replace(part, values=part.values * factor) for part in found]
 
 
 def _create_load_points(

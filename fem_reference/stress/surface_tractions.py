@@ -131,6 +131,16 @@ class SurfaceTractions:
         return float(self.radii[last] or self.radii[last + 1])
 
     @property
+    def extrapolated_from(self) -> float:
+        """Radius beyond which the resultant of the interpolated tractions errs [length].
+
+        At Gauss points, the last element with pressure lies beyond it. At hat functions, three
+        rings reduce the oscillation at the edge to 3 %.
+        """
+        inner = self.radii[self.radii <= self.loaded_radius][:-POINTS_PER_EDGE]
+        return float(inner[-1]) if inner.size else 0.0
+
+    @property
     def reach(self) -> float:
         """Outer radius of the interpolated pressure: the first ring without pressure [length].
 

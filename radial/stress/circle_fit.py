@@ -147,7 +147,8 @@ def _refuse_few(rings: int) -> None:
     if rings < FEWEST:
         raise UnsupportedScene(
             f"{rings} rings resolve the edge of the contact, and the stress below the surface "
-            f"requires {FEWEST}. Use a step with a larger contact, or {ELSEWHERE}"
+            f"requires {FEWEST}. The rings lie over the largest contact of the history: remove "
+            f"later load steps with a larger contact from the scene, or {ELSEWHERE}"
         )
 
 
@@ -202,6 +203,7 @@ def _fit_edge_circle(
     raises    UnsupportedScene if no fit has a zero near the outermost loaded ring
     """
     angles, step = theta[0], 1e-6
+    innermost = np.min(r[weights > 0])
     for highest in range(powers, 0, -1):
         squared = _least_squares(1 - r * r, theta, p * p, weights, highest)
         s = np.zeros_like(angles)
@@ -209,7 +211,7 @@ def _fit_edge_circle(
             slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
             s -= squared(s, angles) / slope
         is_zero = np.abs(squared(s, angles)) < ZERO * np.max(p) ** 2
-        if np.all(is_zero & (np.abs(s) < 1)):
+        if np.all(is_zero & (np.abs(s) < 1 - innermost**2)):
             # r² = 2 x c + R² - c²
             x = np.sqrt(1 - s) * np.cos(angles)
             law = np.stack([2 * x, np.ones_like(x)], axis=1)

@@ -60,7 +60,8 @@ def below_circle(
     for inside, wide, long in np.unique(kinds, axis=1).T:
         alike = np.flatnonzero(np.all(kinds == np.array([[inside], [wide], [long]]), axis=0))
         each = ANGLES * POINTS * fineness**2 * int(wide) * int(long) * 4
-        for some in np.array_split(alike, -(-len(alike) * each // MAX_AT_ONCE)):
+        blocks = min(len(alike), -(-len(alike) * each // MAX_AT_ONCE))
+        for some in np.array_split(alike, blocks):
             angles = _ray_directions(r[some], int(wide), fineness) if inside else None
             found[:, some] = _integrate_all_rays(
                 circle, material, x[some], y[some], depth, angles, int(long), fineness

@@ -9,6 +9,8 @@ from itertools import product
 from typing import Any
 
 from contact_results.directory.machine import program_version
+from contact_scene.checks.axisymmetric import ELSEWHERE
+from contact_scene.solver_errors import UnsupportedScene
 
 ROUND_OFF = 1e-13
 TIMES = 2.0
@@ -115,9 +117,18 @@ class Table:
         of the normal force, round-off and additional uncertainties are added.
 
         chosen  values by parameter name, which replace the default values
+
+        Raises UnsupportedScene for values at which the radial solver refuses the contact.
         """
         for place in product(*(chosen.get(name, axis.values) for name, axis in self.axes.items())):
-            found, finer = self.at(place, 1), self.at(place, 2)
+            try:
+                found, finer = self.at(place, 1), self.at(place, 2)
+            except UnsupportedScene as refused:
+                given = ", ".join(f"{n}={v:g}" for n, v in zip(self.axes, place, strict=True))
+                reason = str(refused).partition(f"; {ELSEWHERE}")[0]
+                raise UnsupportedScene(
+                    f"{given}: {reason}. Choose other values with --over"
+                ) from None
             left = found.left or (0.0,) * len(found.values)
             uncertainties = (
                 TIMES * abs(value - other) + (found.missed + ROUND_OFF) * abs(value) + more

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import re
 from html import escape
+from math import ceil, log10
 from pathlib import Path
 from typing import Any
 
@@ -132,7 +133,9 @@ def _label_decades(ax: Any, least: float) -> None:
             low, high = middle / part, middle * part
             set_ends(low, high)
         ticks = style.round_ticks(low, high)
-        axis.set_ticks(ticks, [plain(tick) for tick in ticks])
+        # Ticks of a short axis differ in digits that a number of three digits lacks.
+        digits = max(3, 2 + ceil(-log10(high / low - 1)))
+        axis.set_ticks(ticks, [plain(tick, digits) for tick in ticks])
         axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
 

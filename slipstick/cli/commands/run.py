@@ -282,7 +282,7 @@ def _print_outcome(
 
     seconds  elapsed time of each phase of the run [s]
     """
-    from contact_results.key_numbers import doubts_of, outcome_columns
+    from contact_results.key_numbers import LOOPS, doubts_of, outcome_columns
     from slipstick.cli.progress import accuracy_lines, error_lines, solve_lines
     from slipstick.cli.terminal import print_pairs, print_table
 
@@ -295,5 +295,7 @@ def _print_outcome(
     columns = outcome_columns(report.steps, report.step_errors)
     for table in (columns, *([written.cycles] if written.cycles else ())):
         print_table(table, zip(*table.values(), strict=True), numbers=True)
+    if written.cycles:
+        typer.echo(f"  {LOOPS}")
     for text in doubts_of(report):
         typer.echo(f"  {text}")

@@ -201,7 +201,10 @@ def stress(
         _depth_levels(contents.scene, indenter, chosen_depths or (), "--depths")
     if at or history:
         drawn = figures is Figures.ALL
-        _write_points(source, contents, at or [], step, chosen, output, history, indenter, drawn)
+        given_points = at or []
+        _write_points(
+            source, contents, given_points, step, chosen, output, history, indenter, drawn, error
+        )
         return
     expectation = read_expectation(
         expect,
@@ -338,6 +341,7 @@ def _write_points(
     history: bool,
     indenter: bool,
     drawn: bool,
+    error: bool,
 ) -> None:
     """Compute the stress at points in a body, and write it as table and figure.
 
@@ -353,6 +357,7 @@ def _write_points(
     history   true for all increments
     indenter  true for points in the indenter, false for points in the lower body
     drawn     true to draw the figure
+    error     false to omit the errors
     """
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
@@ -362,20 +367,21 @@ def _write_points(
         result, _ = _solve_scene(contents, chosen, error=False)
         states = states_of_result(result) if history else [state_of_result(result, step)]
     for state in states:
-        number, index, state = state if history else (state.step, None, state)
-        if state is None:
-            continue
+        number, index = state.step, state.increment if history else None
         if contents is not None:
             state = state.with_bodies_of(contents.scene)
         title, (which, body) = state.title, _elastic_body(state, indenter)
         x, y, levels = _parse_points(at, state, indenter)
+        end = f"step {number}" if index is None else f"step {number}, increment {index}"
         try:
-            found = stress_at(state, x, y, levels, indenter=indenter)
-            made.append(StressIncrement(number, index, *found))
-        except UnsupportedScene as error:  # a contact too small for rings
-            left_out = error
-            end = f"step {number}" if index is None else f"step {number}, increment {index}"
-            print_message(f"{end} is left out: {error}")
+            points, errors, unknown = stress_at(state, x, y, levels, indenter=indenter, error=error)
+        except UnsupportedScene as too_small:  # a contact too small for rings
+            left_out = too_small
+            print_message(f"{end} is left out: {too_small}")
+            continue
+        made.append(StressIncrement(number, index, points, errors))
+        if unknown:
+            print_message(f"{end} has no errors: {unknown}")
     if not made:
         raise left_out
     title = f"{title or 'Stress'}: {which}"

@@ -120,7 +120,8 @@ def sweep(
     if len(made) >= LONG_SWEEP:
         with suppress(SolverError):  # which the points report
             text = estimated_time(solver.solver.of_file(contents))
-            described.append(("time", f"for each point {text}"))
+            stresses = ", without that of the stresses" if any("@" in one for one in names) else ""
+            described.append(("time", f"for each point {text}{stresses}"))
     if solver is not SolverName.RADIAL and (how := radial_method(first)):
         described.append(("radial", f"--solver radial can solve this: {how}"))
     print_pairs(described)
