@@ -71,7 +71,7 @@ def test_a_table_at_points_is_written_without_a_figure_if_none_is_asked_for(plac
     assert not figure.exists()
 
 
-def test_errors_of_points_are_left_empty_if_none_are_asked_for(place: Path) -> None:
+def test_errors_of_points_are_left_empty_if_none_are_asked_for(place):
     (row,) = at_points(place, "run", "bare", "--at", "0,0,0", "--figures", "none", "--no-error")
     assert row["error [Pa]"] == ""
     assert float(row["sigma_zz [Pa]"]) < 0

@@ -291,7 +291,7 @@ def test_a_stress_below_shear_on_rings_has_the_error_of_its_tractions(tmp_path):
     assert not unknown
 
 
-def test_a_run_without_its_number_of_rings_states_no_error_at_points() -> None:
+def test_a_run_without_its_number_of_rings_states_no_error_at_points():
     """As stored before the file had this number."""
     pushed = scene(PRESS, push(0.5, increments=1), body=steel())
     state = state_of_result(package.solve(pushed, "radial", RadialDiscretisation()), None)
@@ -384,8 +384,8 @@ def test_the_error_of_a_stress_contains_that_of_a_small_section():
     [(0.5, 0.018, 0.5, 2.0), (1.0, 0.005, 1.0, 0.5)],
 )
 def test_the_force_at_an_unresolved_edge_is_not_spread_over_the_contact(
-    half_width: float, edge_radius: float, thickness: float, stiffer: float
-) -> None:
+    half_width, edge_radius, thickness, stiffer
+):
     """The pressure peak of a rounded edge lies within an element, and carries 5 % of the force."""
     layer = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
     body = Body(material=steel(), layers=(layer,))

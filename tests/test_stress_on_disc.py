@@ -136,18 +136,18 @@ def test_a_pressure_whose_square_has_no_zero_ends_near_its_last_ring():
     assert_allclose([circle.radius, circle.centre], [1.0, 0.0], atol=0.1)
 
 
-def test_a_contact_within_few_rings_ends_among_them() -> None:
+def test_a_contact_within_few_rings_ends_among_them():
     """A fit of five rings also has a zero far inside, at 0.4 of the contact radius."""
     press = LoadStep(normal_force=2.0, increments=4)
     push = LoadStep(tangential_force=(0.24, 0.0), increments=1)
     friction = CoulombFriction(coefficient=0.2)
     posed = scene_of(BARE).replace({"loading": (press, push), "friction": friction})
-    result: Any = radial.solve(posed)
+    result = radial.solve(posed)
     half = state_of_increment(result, 1, 2)
     assert OnDisc(half).radial_body.parts.radius == pytest.approx(half.contact_radius, rel=0.05)
 
 
-def test_a_small_contact_has_its_stress_without_the_later_larger_one() -> None:
+def test_a_small_contact_has_its_stress_without_the_later_larger_one():
     friction = CoulombFriction(coefficient=0.2)
     small = LoadStep(normal_force=0.03, increments=1)
     push = LoadStep(tangential_force=(0.003, 0.0), increments=1)
@@ -168,7 +168,7 @@ def test_rings_whose_pressure_scatters_at_the_edge_do_not_move_the_circle(scatte
     assert_allclose(circle.smooth[..., 0], np.ones((3, 241)) * [[0.1], [0.2], [1.0]], rtol=1e-9)
 
 
-def test_one_point_may_need_several_blocks_of_quadrature_points() -> None:
+def test_one_point_may_need_several_blocks_of_quadrature_points():
     loaded = circle_of(lambda e, t: MU, lambda e, t: 0.0, lambda e, t: 1.0)
     near, depth = np.array([1 - 1e-6]), 1e-6
     usual, fine = (

@@ -54,9 +54,7 @@ def test_a_map_states_errors_only_if_there_are_any(errors, title):
     assert ax.get_title() == title
 
 
-def test_an_estimate_of_time_states_that_it_lacks_the_stresses(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_estimate_of_time_states_that_it_lacks_the_stresses(tmp_path, monkeypatch):
     monkeypatch.setattr("slipstick.cli.commands.sweep.LONG_SWEEP", 2)
     hertz = Path(__file__).parents[1] / "scenes" / "hertz.toml"
     vary = "indenter.radius=10..11 mm 2"

@@ -108,7 +108,7 @@ def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(tmp_path
     assert row["value_uncertainty"] == last.uncertainty * last.scale
 
 
-def test_a_refused_row_names_its_values_and_a_remedy_that_tables_have() -> None:
+def test_a_refused_row_names_its_values_and_a_remedy_that_tables_have():
     ended = outcome("table", "punch", "--over", "a_over_h=1e4", "--over", "nu=0.3", cwd=ROOT)
     said = " ".join(ended.stderr.split())
     assert ended.returncode

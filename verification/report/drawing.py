@@ -132,9 +132,10 @@ def _label_decades(ax: Any, least: float) -> None:
             middle, part = np.sqrt(low * high), np.sqrt(ratio)
             low, high = middle / part, middle * part
             set_ends(low, high)
-        ticks = style.round_ticks(low, high)
-        # Ticks of a short axis differ in digits that a number of three digits lacks.
+        # Ticks of a short axis differ in digits that a number of three digits lacks. Its labels
+        # need twice the width.
         digits = max(3, 2 + ceil(-log10(high / low - 1)))
+        ticks = style.round_ticks(low, high)[:: 1 if digits == 3 else 2]
         axis.set_ticks(ticks, [plain(tick, digits) for tick in ticks])
         axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
