@@ -138,6 +138,11 @@ def resolved(*loading, **parts):
     return resolution(solved_on(*loading, **parts))[-1]
 
 
+def test_cells_count_with_their_larger_side_and_strips_with_their_width():
+    assert SurfaceGrid((8, 4), (2.0, 2.0)).cell_side == 0.5
+    assert SurfaceGrid((8, 1), (2.0, 1.0)).cell_side == 0.25
+
+
 @pytest.mark.parametrize("cells", [31, 32])
 @pytest.mark.parametrize("radius", [1.6, 3.0, 8.3])
 def test_contact_is_counted_in_cells(cells, radius):
