@@ -137,10 +137,12 @@ class SurfaceTractions:
         At Gauss points, the last element with pressure lies beyond it. At hat functions, three
         rings reduce the oscillation at the edge to 3 %. If the surfaces separate within the
         contact, the resultant errs at every edge, and may exceed the force beyond the last hole.
+        The interpolated pressure is zero at rings beyond the edge that is resolved between rings.
         """
         if self._has_holes:
             return 0.0
-        inner = self.radii[self.radii <= self.loaded_radius][:-POINTS_PER_EDGE]
+        edge = float(np.max(self.edges, initial=0.0)) or self.loaded_radius
+        inner = self.radii[self.radii <= min(edge, self.loaded_radius)][:-POINTS_PER_EDGE]
         return float(inner[-1]) if inner.size else 0.0
 
     @property
