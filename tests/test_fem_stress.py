@@ -81,6 +81,18 @@ def test_stress_below_a_contact_with_a_hole_has_no_pressure_there():
             assert found[name][0] == pytest.approx(value, rel=0.02), name
 
 
+def test_force_that_the_tractions_lack_does_not_act_on_a_ridge_that_just_touches():
+    """Beyond a hole, at Gauss points. The tractions of the disc carry 2 % less than the force."""
+    rings = A * np.linspace(0.02, 1.58, 40)
+    pressure = np.where(rings < A, P0, 0.0)
+    pressure[-2:] = 1e-4 * P0
+    force = 1.02 * np.pi * A**2 * P0
+    touching = SurfaceTractions(rings, pressure, rooted=True, normal_force=force)
+    field = subsurface(Body(material=STEEL), touching, elements(16))
+    r, z = field.points
+    assert np.max(np.abs(field.stress()[ZZ, (z == 0) & (r > 1.3 * A)])) < 0.01 * P0
+
+
 @pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])
 def coated(request):
     return request.param, subsurface(COATED, request.param, elements(12))

@@ -135,9 +135,14 @@ class SurfaceTractions:
         """Radius beyond which the resultant of the interpolated tractions errs [length].
 
         At Gauss points, the last element with pressure lies beyond it. At hat functions, three
-        rings reduce the oscillation at the edge to 3 %.
+        rings reduce the oscillation at the edge to 3 %. If the surfaces separate within the
+        contact, the resultant errs at every edge, and may exceed the force beyond the last hole.
+        The interpolated pressure is zero at rings beyond the edge that is resolved between rings.
         """
-        inner = self.radii[self.radii <= self.loaded_radius][:-POINTS_PER_EDGE]
+        if self._has_holes:
+            return 0.0
+        edge = float(np.max(self.edges, initial=0.0)) or self.loaded_radius
+        inner = self.radii[self.radii <= min(edge, self.loaded_radius)][:-POINTS_PER_EDGE]
         return float(inner[-1]) if inner.size else 0.0
 
     @property
@@ -161,7 +166,7 @@ class SurfaceTractions:
         """
         if not self.rooted or self._least_element_count < FEWEST_RINGS:
             return np.empty(0)
-        if any(holes(ray, self._edge_rule) for ray in self._ray_pressures.T):
+        if self._has_holes:
             return np.empty(0)
         if self.angles is None:
             return np.repeat(self._edge_radii, 2)
@@ -206,6 +211,11 @@ class SurfaceTractions:
     def _least_element_count(self) -> float:
         """Least number of elements with pressure on a ray, which must resolve the edge."""
         return float(np.min(np.count_nonzero(self._ray_pressures > 0, axis=0)) / self._per_element)
+
+    @property
+    def _has_holes(self) -> bool:
+        """True if the surfaces separate within the contact on a ray."""
+        return any(holes(ray, self._edge_rule) for ray in self._ray_pressures.T)
 
     @property
     def _ray_pressures(self) -> Field:
