@@ -114,14 +114,14 @@ def test_right_answers_pass_wrong_ones_fail_and_missing_ones_are_left_open(name)
 
 @pytest.mark.parametrize("beyond", [0, 3])
 @pytest.mark.parametrize("off", [0.0, 0.4, 0.9])
-def test_a_field_that_omits_its_last_rings_carries_too_little(off, beyond):
+def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(off, beyond):
     (asked,) = POINT.fields
     h = HERTZ.contact_radius / (24 + off)
     r = h * np.arange(25.0 + beyond)
     ends = np.maximum(np.array([r - h / 2, r + h / 2]), 0.0)
     area = np.asarray(np.pi * np.diff(ends**2, axis=0)[0], dtype=np.float64)
     field = Field(r, np.zeros_like(r), asked.traction.at(r, np.zeros_like(r)), area)
-    key, told = ("pressure", 1), "pressure: load carried"
+    key, told = ("pressure", 1), "pressure: contact covered"
     assert statuses(Answer(h, fields={key: field}))[told] is Status.PASS
     short = Field(*(getattr(field, n)[:22] for n in ("x", "y", "value", "area")))
     assert statuses(Answer(h, fields={key: short}))[told] is Status.FAIL

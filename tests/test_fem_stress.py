@@ -81,6 +81,13 @@ def test_stress_below_a_contact_with_a_hole_has_no_pressure_there():
             assert found[name][0] == pytest.approx(value, rel=0.02), name
 
 
+def test_the_force_that_tractions_lack_is_that_of_the_last_three_rings():
+    """With the edge resolved between rings, and without: rings beyond it have no pressure."""
+    loaded = RINGS[PRESSURE > 0]
+    assert PRESSED.extrapolated_from == pytest.approx(loaded[-4])
+    assert replace(PRESSED, rooted=True).extrapolated_from == pytest.approx(loaded[-4])
+
+
 def test_force_that_the_tractions_lack_does_not_act_on_a_ridge_that_just_touches():
     """Beyond a hole, at Gauss points. The tractions of the disc carry 2 % less than the force."""
     rings = A * np.linspace(0.02, 1.58, 40)

@@ -153,7 +153,7 @@ def test_a_small_contact_has_its_stress_without_the_later_larger_one():
     push = LoadStep(tangential_force=(0.003, 0.0), increments=1)
     larger = LoadStep(normal_force=2.0, increments=1)
     posed = scene_of(BARE).replace({"loading": (small, push, larger), "friction": friction})
-    with pytest.raises(UnsupportedScene, match="remove later load steps with a larger contact"):
+    with pytest.raises(UnsupportedScene, match="remove later loads with a larger contact"):
         OnDisc(state_of_result(slipstick.solve(posed, "radial"), 2)).stress([0.1])
     alone = slipstick.solve(posed.replace({"loading": (small, push)}), "radial")
     assert OnDisc(state_of_result(alone, 2)).stress([0.1]).points.x.size

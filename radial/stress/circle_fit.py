@@ -148,7 +148,7 @@ def _refuse_few(rings: int) -> None:
         raise UnsupportedScene(
             f"{rings} rings resolve the edge of the contact, and the stress below the surface "
             f"requires {FEWEST}. The rings lie over the largest contact of the history: remove "
-            f"later load steps with a larger contact from the scene, or {ELSEWHERE}"
+            f"later loads with a larger contact from the scene, or {ELSEWHERE}"
         )
 
 

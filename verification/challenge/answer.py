@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -120,3 +120,10 @@ class Solver:
     sampling: str = "point"
     claimed_grade: str | None = None
     claimed_orders: Mapping[str, float] = field(default_factory=dict)
+
+    def document(self) -> dict[str, Any]:
+        """Return name, version and address of a code that answers challenges, as a JSON record.
+
+        The record is part of a result sheet.
+        """
+        return {"solver": self.name, "version": self.version, "url": self.url}

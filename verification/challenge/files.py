@@ -140,21 +140,23 @@ class GivenLevel(Description):
         """Convert the level to the answer that a solver function returns; refused alike."""
         scalars: dict[Any, Any] = {}
         points: dict[Any, Any] = {}
-        fields: dict[Any, Any] = {}
-        given: tuple[GivenNumber | GivenField, ...] = (*self.numbers, *self.fields)
-        for one in given:
+        for one in self.numbers:
             key = one.quantity, one.load_step
-            if key in scalars | points | fields:
-                raise Refused(f"level {level}: {key[0]} of step {key[1]} twice")
-            if isinstance(one, GivenField):
-                fields[key] = Field(*map(np.array, (one.x, one.y, one.value, one.area)))
-            elif one.u is not None and not isinstance(one.value, float):
-                raise Refused(f"level {level}: {key[0]}: u belongs to one number")
-            elif isinstance(one.value, tuple):
+            if key in scalars or key in points:
+                raise Refused(f"level {level}: {one.quantity} of step {one.load_step} twice")
+            if one.u is not None and not isinstance(one.value, float):
+                raise Refused(f"level {level}: {one.quantity}: u belongs to one number")
+            if isinstance(one.value, tuple):
                 points[key] = one.value
             elif one.value is not None:
                 scalars[key] = one.value if one.u is None else (one.value, one.u)
-        answer = Answer(
+        fields: dict[Any, Any] = {}
+        for field in self.fields:
+            key = field.quantity, field.load_step
+            if key in fields:
+                raise Refused(f"level {level}: {key[0]} of step {key[1]} twice")
+            fields[key] = Field(*map(np.array, (field.x, field.y, field.value, field.area)))
+        given = Answer(
             self.h,
             scalars,
             fields,
@@ -164,7 +166,7 @@ class GivenLevel(Description):
             self.label or str(level),
             points,
         )
-        return plain_answer(answer, level)
+        return plain_answer(given, level)
 
 
 class GivenAnswers(Description):
